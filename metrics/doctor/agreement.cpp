@@ -11,10 +11,13 @@
 #include "datasets/core/closest_rotation.hpp"
 #include "metrics/alignment/hand_eye.hpp"
 #include "metrics/numerics/angle.hpp"
+#include "metrics/numerics/average.hpp"
 #include "metrics/pairing/motion.hpp"
 
 namespace loopbench::metrics {
 namespace {
+
+constexpr double kFloor = 0.02;  // of errors: no evidence below [-], [rad]
 
 /// Twenty blocks, alternately for fits and for tests.
 bool is_fitted(std::size_t index, std::size_t size) {
@@ -40,11 +43,12 @@ Eigen::Matrix3Xd positions(const Trajectory& list) {
   return out;
 }
 
-/// Second largest standard deviation of positions over the largest.
-double width_of(const Eigen::Matrix3Xd& list) {
-  const Eigen::Matrix3Xd centred = list.colwise() - list.rowwise().mean();
+bool is_line(const Trajectory& list) {
+  constexpr double kLeastWidth = 0.03;  // over the length; a corridor's is that of its noise
+  Eigen::Matrix3Xd centred = positions(list);
+  centred.colwise() -= centred.rowwise().mean().eval();
   const Vector3 deviations = centred.jacobiSvd().singularValues();
-  return deviations[0] > 0.0 ? deviations[1] / deviations[0] : 0.0;
+  return deviations[1] <= kLeastWidth * deviations[0];
 }
 
 /// Motions in body frames over short intervals that begin in the part for fits, or for tests.
@@ -93,7 +97,6 @@ void compare_motions(const Paired& poses, Agreement& out) {
     of_estimate += estimate.translation.squaredNorm();
   }
   const double scale = of_estimate > 0.0 ? std::max(0.0, common / of_estimate) : 1.0;
-  out.scale = scale;
   double error_squares = 0.0, squares = 0.0;
   std::vector<double> errors, lengths, angles;
   for (const auto& [reference, estimate] : motions_of(poses, false)) {
@@ -105,9 +108,9 @@ void compare_motions(const Paired& poses, Agreement& out) {
     squares += rotated.squaredNorm();
   }
   const double length = median_value(std::move(lengths));
-  out.displacement = length > 0.0 ? median_value(std::move(errors)) / length : 0.0;
+  if (length > 0.0) out.displacement = median_value(std::move(errors)) / length;
+  if (squares > 0.0) out.turning = std::sqrt(error_squares / squares);
   out.usual_turning = median_value(std::move(angles));
-  out.turning = squares > 0.0 ? std::sqrt(error_squares / squares) : 0.0;
 }
 
 }  // namespace
@@ -119,15 +122,15 @@ Rotation body_rotation(const Paired& poses) {
 Paired fitted_part(const Paired& poses) { return part_of(poses, true); }
 
 double Agreement::cost() const {
-  constexpr double kFloor = 0.02, kFloorOfAngle = 0.05, kWeightOfScale = 0.5;
-  double out = std::log(position / std::max(1e-9, spread) + kFloor);
-  if (has_rotations) {
-    out += std::log(displacement + kFloor) + std::log(turning + kFloor);
-    if (!is_line) out += std::log(rotation + kFloorOfAngle);
-    const double size = std::clamp(scale, kFloorOfAngle, 1.0 / kFloorOfAngle);
-    out += kWeightOfScale * std::log(std::abs(std::log(size)) + kFloor);
-  }
-  return out;
+  return std::log(position / std::max(1e-9, spread) + kFloor) + std::log(displacement + kFloor) +
+         std::log(turning + kFloor) + std::log(rotation + kFloor);
+}
+
+bool Agreement::is_good() const {
+  constexpr double kSmall = 0.08;
+  const bool has_small_motions = displacement < kSmall && turning < kSmall;
+  return position < kSmall * spread &&
+         (!has_rotations || (has_small_motions && (is_line || rotation < kSmall)));
 }
 
 double largest_rotation_angle(const Trajectory& poses) {
@@ -139,66 +142,65 @@ double largest_rotation_angle(const Trajectory& poses) {
   return out;
 }
 
-bool has_rotations(const Paired& poses) {
-  return std::min(largest_rotation_angle(poses.reference), largest_rotation_angle(poses.estimate)) >
-         kLeastRotation;
-}
-
 Eigen::Affine3d similarity(const Paired& poses) {
   return Eigen::Affine3d(Eigen::umeyama(positions(poses.estimate), positions(poses.reference)));
 }
 
+double position_error(const Paired& poses, const Eigen::Affine3d& reference_from_estimate) {
+  double squares = 0.0;
+  for (std::size_t i = 0; i < poses.estimate.size(); ++i) {
+    squares += (poses.reference[i].world_from_body.translation -
+                reference_from_estimate * poses.estimate[i].world_from_body.translation)
+                   .squaredNorm();
+  }
+  return std::sqrt(squares / static_cast<double>(poses.estimate.size()));
+}
+
 Agreement agreement(const Paired& poses) {
-  constexpr double kLeastWidth = 0.03;  // over the length; a corridor's is that of its noise
   Agreement out;
   if (poses.estimate.size() < kFewestCommonPoses) return out;
   const Paired fitted = fitted_part(poses), tested = part_of(poses, false);
-  const Eigen::Matrix3Xd reference = positions(fitted.reference);
-  const Eigen::Affine3d rigid(Eigen::umeyama(positions(fitted.estimate), reference, false));
-  const Eigen::Affine3d similar = similarity(fitted);
-  const Rotation world(rigid.linear());
-  const Vector3 mean = reference.rowwise().mean();
-  double of_rigid = 0.0, of_similar = 0.0, spread = 0.0;  // sums of squares [m^2]
+  const Eigen::Affine3d rigid(
+      Eigen::umeyama(positions(fitted.estimate), positions(fitted.reference), false));
+  out.position = position_error(tested, rigid);
+  out.spread = spread_of(tested.reference.size(), [&](std::size_t i) -> const Vector3& {
+    return tested.reference[i].world_from_body.translation;
+  });
+  out.has_rotations = std::min(largest_rotation_angle(poses.reference),
+                               largest_rotation_angle(poses.estimate)) > kLeastRotation;
+  if (!out.has_rotations) return out;
+  compare_motions(poses, out);
+  out.is_line = is_line(fitted.reference) && is_line(fitted.estimate);
+  if (out.is_line) return out;
   std::vector<double> angles;
   for (std::size_t i = 0; i < tested.estimate.size(); ++i) {
-    const Pose& r = tested.reference[i].world_from_body;
-    const Pose& e = tested.estimate[i].world_from_body;
-    of_rigid += (r.translation - rigid * e.translation).squaredNorm();
-    of_similar += (r.translation - similar * e.translation).squaredNorm();
-    spread += (r.translation - mean).squaredNorm();
-    angles.push_back(angle_between(r.rotation, world * e.rotation));
+    angles.push_back(
+        angle_between(tested.reference[i].world_from_body.rotation,
+                      Rotation(rigid.linear()) * tested.estimate[i].world_from_body.rotation));
   }
-  const auto count = static_cast<double>(tested.estimate.size());
-  out.position = std::sqrt(of_rigid / count);
-  out.similarity = std::sqrt(of_similar / count);
-  out.spread = std::sqrt(spread / count);
   out.rotation = median_value(std::move(angles));
-  out.has_rotations = has_rotations(poses);
-  out.is_line = std::max(width_of(reference), width_of(positions(fitted.estimate))) < kLeastWidth;
-  if (out.has_rotations) compare_motions(poses, out);
   return out;
 }
 
 Improvement improvement(const Agreement& before, const Agreement& after) {
-  constexpr double kSmall = 1e-3;
+  constexpr double kSmall = 1e-3;  // smaller errors are numerical
   Improvement out;
   const auto compare = [&](const char* what,
                            double Agreement::*error,
                            double floor,
                            double factor,
                            const char* unit) {
-    const double was = before.*error, is = after.*error;
-    const double ratio = (is + floor) / (was + floor);
+    const double was = before.*error, is = after.*error, ratio = (is + floor) / (was + floor);
     if (!(ratio < out.ratio)) return;
     out = {fmt::format("{} {:.3g} -> {:.3g} {}", what, factor * was, factor * is, unit), ratio};
   };
   compare("position error", &Agreement::position, kSmall * before.spread, 1.0, "m");
-  if (!before.has_rotations || !after.has_rotations) return out;
-  if (!before.is_line && !after.is_line)
-    compare("rotation error", &Agreement::rotation, 0.5 / kDegrees, kDegrees, "deg");
-  if (out.ratio < 0.5) return out;
+  compare("rotation error", &Agreement::rotation, 0.5 / kDegrees, kDegrees, "deg");
+  if (out.ratio < 0.5) return out;  // what users see
   compare("error of displacements in body frames", &Agreement::displacement, kSmall, 100.0, "%");
   compare("error of relative rotations", &Agreement::turning, kSmall, 100.0, "%");
+  compare(
+      "median error of relative rotations", &Agreement::usual_turning, kNoNoise, kDegrees, "deg");
   return out;
 }
 

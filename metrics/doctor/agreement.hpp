@@ -15,22 +15,27 @@ Paired fitted_part(const Paired& poses);
 /// them, and no world frame does.
 struct Agreement {
   double position = 0.0;       ///< rmse after a rigid alignment [m]
-  double similarity = 0.0;     ///< rmse after a similarity [m]
   double spread = 0.0;         ///< standard deviation of the reference's positions [m]
-  double rotation = 0.0;       ///< median angle after the alignment of positions [rad]
-  double displacement = 0.0;   ///< median error of displacements, over their median length [-]
-  double scale = 1.0;          ///< of these displacements, reference over estimate [-]
-  double turning = 0.0;        ///< rms error of relative rotations, over their rms [-]
-  double usual_turning = 0.0;  ///< median error of relative rotations [rad]
-  bool has_rotations = true;   ///< false: the rotation of one list is constant
+  bool has_rotations = false;  ///< false: the rotation of one list is constant
   bool is_line = false;        ///< positions on a line, whose alignment leaves a rotation open
+  // 1: not compared.
+  double rotation = 1.0;       ///< median angle after the alignment of positions [rad]
+  double displacement = 1.0;   ///< median error of displacements, over their median length [-]
+  double turning = 1.0;        ///< rms error of relative rotations, over their rms [-]
+  double usual_turning = 1.0;  ///< median error of relative rotations [rad]
 
   /// Sum of logarithms of all relative errors; smaller is better.
   double cost() const;
+
+  /// Whether nothing is wrong but drift.
+  bool is_good() const;
 };
 
-/// Alignments and constant rotations are fitted to one half. All errors are 0 below 20 poses. O(n).
+/// Alignments and constant rotations are fitted to one half. Nothing is compared below 20 poses.
+/// O(n).
 Agreement agreement(const Paired& poses);
+
+inline constexpr double kMostRatio = 0.9;  ///< of an error after a repair over the one before
 
 /// The measure that a change improves most.
 struct Improvement {
@@ -46,12 +51,12 @@ Rotation body_rotation(const Paired& poses);
 /// reference_from_estimate of the positions in least squares (Umeyama 1991). O(n).
 Eigen::Affine3d similarity(const Paired& poses);
 
+/// Root mean square of the distances of positions after a transform of the estimate's [m]. O(n).
+double position_error(const Paired& poses, const Eigen::Affine3d& reference_from_estimate);
+
 inline constexpr double kLeastRotation = 0.05;  ///< smaller ones cannot be checked [rad]
 
 /// Largest rotation angle from the first pose [rad]. O(n).
 double largest_rotation_angle(const Trajectory& poses);
-
-/// Whether both rotate by more than kLeastRotation. O(n).
-bool has_rotations(const Paired& poses);
 
 }  // namespace loopbench::metrics

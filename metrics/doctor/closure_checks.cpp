@@ -1,9 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "metrics/doctor/graph_checks.hpp"
 #include "metrics/doctor/sampling.hpp"
@@ -11,11 +14,8 @@
 namespace loopbench::metrics {
 namespace {
 
-constexpr double kMost = 36.0;        // chi-squared: six standard deviations
-constexpr double kMostDrift = 0.35;   // of the length of a loop; odometry is better
-constexpr double kUsualDrift = 0.01;  // the same, which stated noise can neglect
-
-Pose as_stated(const Pose& p) { return p; }
+constexpr double kMost = 36.0;       // chi-squared: six standard deviations
+constexpr double kMostDrift = 0.35;  // of the length of a loop; odometry is better
 
 double gap_of(const LoopPath& path, const Chain& chain) {
   return path.residual(chain, as_stated).head<3>().norm();
@@ -26,21 +26,18 @@ double gap_of(const LoopPath& path, const Chain& chain) {
 struct CheckedClosure {
   const LoopPaths* paths = nullptr;
   double odometry = 0.0, over_closures = 0.0;
-  double excess = 0.0;  ///< of the larger one over its limit; 1: contradicted
+  double excess = 0.0;  ///< over what contradicts
   bool is_gross = false;
 };
 
 /// Removes closures that state exactly the identity, as if a place recogniser had measured no
-/// relative poses, if they are at least a fifth and neither the odometry nor a neighbour that
-/// states the same agrees. O(closures).
+/// relative poses, if they are at least a fifth and the odometry or other closures contradict most.
+/// O(closures).
 std::optional<InputFinding> remove_placeholders(std::vector<Edge>& closures, const Chain& chain) {
-  constexpr double kLeastPart = 0.2;
-  constexpr double kLeastGap = 0.05, kOfLength = 0.02;  // [m]; drift of most odometry [-]
+  constexpr double kLeastPart = 0.2, kLeastGap = 0.05, kUsualDrift = 0.02;  // [-], [m], [-]
   std::vector<Edge> identities, measured;
   for (const Edge& edge : closures) {
-    const Pose& stated = edge.from_from_to;
-    const bool is_identity =
-        stated.rotation.vec().norm() < kFileRounding && stated.translation.norm() < kFileRounding;
+    const bool is_identity = is_close(edge.from_from_to, Pose{}, kFileRounding, kFileRounding);
     (is_identity ? identities : measured).push_back(edge);
   }
   const std::size_t count = identities.size(), all = closures.size();
@@ -48,30 +45,29 @@ std::optional<InputFinding> remove_placeholders(std::vector<Edge>& closures, con
     return std::nullopt;
   std::vector<double> gaps, over_drift;
   for (const LoopPaths& each : loop_paths(identities, chain)) {
-    const auto& [from, to, pose, information, scale] = *each.odometry.closure;
+    const std::size_t from = each.odometry.closure->from, to = each.odometry.closure->to;
     gaps.push_back(gap_of(each.odometry, chain));
-    // Steady motion makes neighbours agree, but not with the odometry.
     over_drift.push_back(gaps.back() / (kMostDrift * chain.distance(from, to)));
+    // Steady motion makes neighbours agree, but not with the odometry.
     for (const LoopPath& path : each.over_closures) {
       const double length =
           chain.distance(from, path.over->from) + chain.distance(to, path.over->to);
       over_drift.back() =
-          std::max(over_drift.back(), gap_of(path, chain) / (kLeastGap + kOfLength * length));
+          std::max(over_drift.back(), gap_of(path, chain) / (kLeastGap + kUsualDrift * length));
     }
   }
-  const double gap = median_value(std::move(gaps));
-  if (median_value(std::move(over_drift)) < 1.0 || gap < kLeastGap) return std::nullopt;
+  if (median_value(std::move(over_drift)) < 1.0) return std::nullopt;
   closures = std::move(measured);
-  return InputFinding{
-      Fault::placeholders,
-      fmt::format("{} of {} closures state exactly the same pose at both ends, where the odometry "
-                  "has a median distance of {:.3g} m: it was not measured",
-                  count,
-                  all,
-                  gap),
-      "measure the relative poses (registration)",
-      0.7,
-      static_cast<double>(count)};
+  return InputFinding{Fault::placeholders,
+                      fmt::format("{} of {} closures state exactly the same pose at both ends, "
+                                  "where the odometry has a median distance of {:.3g} m: it was "
+                                  "not measured",
+                                  count,
+                                  all,
+                                  median_value(std::move(gaps))),
+                      "measure the relative poses (registration)",
+                      0.7,
+                      static_cast<double>(count)};
 }
 
 /// Closures whose chi-squared is 36 times the median and the one expected. Of less than four, whose
@@ -79,38 +75,33 @@ std::optional<InputFinding> remove_placeholders(std::vector<Edge>& closures, con
 std::vector<CheckedClosure> contradicted_closures(const std::vector<LoopPaths>& loops,
                                                   const Chain& chain) {
   constexpr double kLeastGap = 0.3;  // [m] or [rad]: smaller ones do little harm
-  constexpr std::size_t kFewest = 4;
   std::vector<CheckedClosure> all, out;
   std::vector<double> odometry, over_closures;
   for (const LoopPaths& each : loops) {
-    CheckedClosure& closure = all.emplace_back();
-    closure.paths = &each;
-    closure.odometry = each.odometry.chi_squared(chain, as_stated);
-    odometry.push_back(closure.odometry);
-    if (each.over_closures.size() < kFewestLoops || loops.size() < kFewest) continue;
+    all.push_back({&each, each.odometry.chi_squared(chain, as_stated)});
+    odometry.push_back(all.back().odometry);
+    if (each.over_closures.size() < kFewestLoops) continue;
     std::vector<double> votes;
     for (const LoopPath& path : each.over_closures)
       votes.push_back(path.chi_squared(chain, as_stated));
-    closure.over_closures = median_value(std::move(votes));
-    over_closures.push_back(closure.over_closures);
+    all.back().over_closures = median_value(std::move(votes));
+    over_closures.push_back(all.back().over_closures);
   }
   const double usual = std::max(1.0, median_value(std::move(odometry)));
   const double usual_over = std::max(1.0, median_value(std::move(over_closures)));
   for (CheckedClosure& each : all) {
-    const Twist residual = each.paths->odometry.residual(chain, as_stated);
-    const Edge& edge = *each.paths->odometry.closure;
-    const double gap = residual.head<3>().norm();
-    const double distance = chain.distance(edge.from, edge.to);
-    const bool is_small = std::max(gap, residual.tail<3>().norm()) < kLeastGap;
-    const bool is_usual = gap < kUsualDrift * distance;
+    const LoopPath& path = each.paths->odometry;
+    const double gap = gap_of(path, chain);
+    if (std::max(gap, path.residual(chain, as_stated).tail<3>().norm()) < kLeastGap) continue;
     // Most closures can be false; then the usual chi-squared shows nothing.
-    each.is_gross = gap > kMostDrift * distance && each.odometry > kMost &&
+    each.is_gross = gap > kMostDrift * chain.distance(path.closure->from, path.closure->to) &&
+                    each.odometry > kMost &&
                     (each.over_closures == 0.0 || each.over_closures > kMost);
-    const double relative =
-        std::max(is_usual ? 0.0 : each.odometry / usual, each.over_closures / usual_over);
-    each.excess = std::sqrt((each.is_gross ? std::max(relative, each.odometry) : relative) / kMost);
-    const bool is_drift = loops.size() < kFewest && !each.is_gross;
-    if (each.excess > 1.0 && !is_small && !is_drift) out.push_back(each);
+    double excess = each.is_gross ? each.odometry : 0.0;
+    if (loops.size() > kFewestLoops)
+      excess = std::max({excess, each.odometry / usual, each.over_closures / usual_over});
+    each.excess = std::sqrt(excess / kMost);
+    if (each.excess > 1.0) out.push_back(each);
   }
   std::ranges::stable_sort(out, std::greater{}, &CheckedClosure::excess);
   return out;
@@ -120,59 +111,53 @@ InputFinding contradiction(const std::vector<CheckedClosure>& found,
                            std::size_t all,
                            const Chain& chain,
                            const Problem& problem) {
-  std::string list;
+  std::vector<std::string> list;
   for (std::size_t i = 0; i < std::min(kListed, found.size()); ++i) {
     const LoopPath& path = found[i].paths->odometry;
-    const auto& [from, to, pose, information, scale] = *path.closure;
-    list += fmt::format("{}{} -> {} (gap of {:.3g} m after {:.3g} m)",
-                        i == 0 ? "" : ", ",
-                        problem.name_of(from),
-                        problem.name_of(to),
-                        gap_of(path, chain),
-                        chain.distance(from, to));
+    const std::size_t from = path.closure->from, to = path.closure->to;
+    list.push_back(fmt::format("{} -> {} (gap of {:.3g} m after {:.3g} m)",
+                               problem.name_of(from),
+                               problem.name_of(to),
+                               gap_of(path, chain),
+                               chain.distance(from, to)));
   }
   return {Fault::closure_gap,
-          fmt::format("{} of {} closures contradict the odometry or other closures with the stated "
+          fmt::format("{} of {} closures contradict the odometry or other "
+                      "closures with the stated "
                       "covariances, most of all {}",
                       found.size(),
                       all,
-                      list),
+                      fmt::join(list, ", ")),
           "check them; robust methods are made for false closures",
           1.0 - 1.0 / std::max(2.0, found.front().excess),
           static_cast<double>(found.size())};
 }
 
 /// The median chi-squared over the most certain paths. O(closures).
-std::optional<InputFinding> check_information(const std::vector<LoopPaths>& loops,
+std::optional<InputFinding> check_information(const std::vector<const LoopPaths*>& loops,
                                               const Chain& chain) {
   constexpr double kTooLarge = 100.0, kTooSmall = 1e-4;  // drift exceeds noise
-  std::vector<double> direct, around, gaps;
-  for (const LoopPaths& each : loops) {
-    direct.push_back(each.odometry.chi_squared(chain, as_stated));
-    if (!each.over_closures.empty())
-      around.push_back(each.over_closures.front().chi_squared(chain, as_stated));
-    gaps.push_back(each.odometry.residual(chain, as_stated).norm());
-  }
-  double found = median_value(std::move(direct));
-  const bool has_neighbours = around.size() >= kFewestLoops;
-  const double of_neighbours = median_value(std::move(around));
+  if (loops.size() < kFewestLoops) return std::nullopt;
+  const MedianFit fit(loops, chain, as_stated);
   // One step of the odometry with a large deviation makes all direct paths certain of nothing.
-  if (has_neighbours && std::min(found, of_neighbours) < kTooSmall) found = of_neighbours;
-  if (loops.size() < kFewestLoops || (found < kTooLarge && found > kTooSmall) ||
-      median_value(std::move(gaps)) < kNoNoise) {
-    return std::nullopt;
-  }
-  return InputFinding{
-      Fault::information,
-      fmt::format("the gaps of {} loops have a median chi-squared of {:.2g} per degree of freedom, "
-                  "expected 1: their variances are {:.2g} times those stated",
-                  loops.size(),
-                  found,
-                  found),
-      "check the information of the edges; for a trajectory: options odometry.sigma_*, "
-      "closures.sigma_*",
-      0.8,
-      found};
+  const double found =
+      std::min(fit.odometry, fit.over_closures) < kTooSmall ? fit.over_closures : fit.odometry;
+  std::vector<double> gaps;
+  for (const LoopPaths* each : loops) gaps.push_back(gap_of(each->odometry, chain));
+  const bool is_exact = median_value(std::move(gaps)) < kNoNoise;
+  if (is_exact || (found < kTooLarge && found > kTooSmall)) return std::nullopt;
+  return InputFinding{Fault::information,
+                      fmt::format("the gaps of {} loops have a median chi-squared of {:.2g} "
+                                  "per degree of freedom, "
+                                  "expected 1: their variances are {:.2g} times those stated",
+                                  loops.size(),
+                                  found,
+                                  found),
+                      "check the information of the edges; for a trajectory: options "
+                      "odometry.sigma_*, "
+                      "closures.sigma_*",
+                      0.8,
+                      found};
 }
 
 }  // namespace
@@ -192,9 +177,9 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   std::vector<CheckedClosure> found = contradicted_closures(loops, chain);
   std::optional<InputFinding> information;
   if (3 * found.size() < loops.size()) {  // more false closures would show no information
-    std::vector<LoopPaths> others;
+    std::vector<const LoopPaths*> others;
     for (const LoopPaths& each : loops) {
-      if (std::ranges::count(found, &each, &CheckedClosure::paths) == 0) others.push_back(each);
+      if (std::ranges::count(found, &each, &CheckedClosure::paths) == 0) others.push_back(&each);
     }
     information = check_information(others, chain);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/average.hpp"
@@ -14,26 +15,25 @@ namespace loopbench::metrics {
 namespace {
 
 constexpr const char* kChecksOfPoses =
-    "units, scale, quaternion order, inverted poses, axes, files of the same recording";
+    "units, scale, quaternion order, inverted poses, axes, files of the same "
+    "recording";
 constexpr double kLeastOfNoise = 3.0;  // standard deviation of positions over their noise
 
 /// Whether noise explains the positions: their standard deviation is at most kLeastOfNoise times
-/// the one of white noise that the median distance of a position from the middle of the ones before
-/// and after has. Acceleration adds to it. O(1).
+/// their median distance from the middle of the ones before and after, which is 1.1 standard
+/// deviations of white noise. Acceleration adds to it. O(1).
 bool is_at_rest(const Trajectory& poses) {
-  constexpr double kMeanOverMedian = 3.0 / 2.366;  // of chi-squared with 3 degrees of freedom
   const auto at = [&](std::size_t i) -> const Vector3& {
     return poses[i].world_from_body.translation;
   };
   const std::size_t step = even_step(poses.size(), kMostPoses);
   const double spread = spread_of((poses.size() - 1) / step + 1,
                                   [&](std::size_t k) -> const Vector3& { return at(k * step); });
-  std::vector<double> squares;  // of the distances from the middle
-  for (std::size_t i = 1; i + 1 < poses.size(); i += step) {
-    squares.push_back((at(i) - 0.5 * (at(i - 1) + at(i + 1))).squaredNorm() / 1.5);
-  }
-  const double noise = std::sqrt(kMeanOverMedian * median_value(std::move(squares)));
-  return spread <= kLeastOfNoise * noise + kFileRounding * at(0).norm();
+  std::vector<double> distances;
+  for (std::size_t i = 1; i + 1 < poses.size(); i += step)
+    distances.push_back((at(i) - 0.5 * (at(i - 1) + at(i + 1))).norm());
+  return spread <=
+         kLeastOfNoise * median_value(std::move(distances)) + kFileRounding * at(0).norm();
 }
 
 /// The pair with the repairs of what was found.
@@ -61,19 +61,14 @@ class PairDiagnosis {
     if (!has_stamps_)
       out_.unchecked.emplace_back("stamps: a file has none, its rows count as equally spaced");
     repair_unit_of_stamps();
-    if (std::min(reference_->size(), estimate_->size()) < kFewestCommonPoses) {
+    if (std::min(reference_->size(), estimate_->size()) < kFewestCommonPoses)
       out_.unchecked.emplace_back("time offset: fewer than 20 poses");
-    }
-    const bool are_rows = !has_stamps_ && reference_->size() == estimate_->size();
-    const auto found =
-        are_rows ? estimate_time_offset(
-                       *reference_, *estimate_, kUsualGaps * usual_interval(*estimate_), true)
-                 : estimate_time_offset(*reference_, *estimate_);
-    if (found) {
+    if (const auto found = estimate_time_offset(*reference_, *estimate_)) {
       out_.has_checked = true;
       if (add(offset_finding(*found, *reference_, *estimate_, has_stamps_)))
         offset_ = out_.findings.back().value;
     }
+    const bool are_rows = !has_stamps_ && reference_->size() == estimate_->size();
     if (!add(check_overlap(*reference_, *estimate_, offset_)) && !are_rows)
       add(check_missing(*reference_, *estimate_, offset_));
   }
@@ -89,31 +84,28 @@ class PairDiagnosis {
   }
 
   /// Jumps of the estimate, or else of the reference, at its own poses.
-  bool remove_all_jumps(Paired& poses) {
+  void remove_all_jumps(Paired& poses) {
     constexpr std::size_t kMostRows = 5000;  // a jump between two poses is found at any distance
     Paired rows = common_poses(*reference_, *estimate_, offset_, kMostRows);
-    bool has_jumps = add(remove_jumps(rows, false));
-    if (!has_jumps) {
+    if (!add(remove_jumps(rows, false))) {
       rows = common_poses(*estimate_, *reference_, -offset_, kMostRows);
       std::swap(rows.reference, rows.estimate);
-      has_jumps = add(remove_jumps(rows, true));
+      if (!add(remove_jumps(rows, true))) return;
     }
-    if (!has_jumps) return false;
     poses = {};
-    for (std::size_t i = 0; i < rows.estimate.size();
-         i += even_step(rows.estimate.size(), kMostPoses)) {
+    const std::size_t step = even_step(rows.estimate.size(), kMostPoses);
+    for (std::size_t i = 0; i < rows.estimate.size(); i += step) {
       poses.reference.push_back(rows.reference[i]);
       poses.estimate.push_back(rows.estimate[i]);
     }
-    return true;
   }
 
   void check_poses() {
-    constexpr int kMostRepairs = 3;
     Paired poses = common_poses(*reference_, *estimate_, offset_);
     if (poses.estimate.size() < kFewestCommonPoses) {
       out_.unchecked.push_back(
-          fmt::format("{}: poses of the estimate in the reference's time: {}, expected at least {}",
+          fmt::format("{}: poses of the estimate in the reference's time: {}, expected at "
+                      "least {}",
                       kChecksOfPoses,
                       poses.estimate.size(),
                       kFewestCommonPoses));
@@ -129,13 +121,13 @@ class PairDiagnosis {
     }
     out_.has_checked = true;
     remove_all_jumps(poses);
-    if (!has_rotations(poses)) {
+    if (!agreement(poses).has_rotations) {
       note_constant_rotation(largest_rotation_angle(poses.reference),
                              largest_rotation_angle(poses.estimate));
     }
-    for (int i = 0; i < kMostRepairs && add(apply_best_repair(poses, out_.findings)); ++i) {
+    while (add(apply_best_repair(poses, out_.findings))) {
     }
-    check_recording(agreement(poses));
+    check_recording(poses);
   }
 
   /// A finding only if the other file rotates. Files of positions are meant to have no rotations.
@@ -149,41 +141,40 @@ class PairDiagnosis {
                     kLeastRotation));
     const bool has_positions_only = lacks_rotations(*reference_) || lacks_rotations(*estimate_);
     if (has_positions_only || smaller > kNoNoise || larger < 2.0 * kLeastRotation) return;
-    out_.findings.push_back(
-        {Fault::constant_rotation,
-         fmt::format("the {}'s rotation is constant while the other file rotates by {:.0f} deg",
-                     name,
-                     kDegrees * larger),
-         "write the file with rotations, or use position errors only (eval -r trans_part)",
-         1.0,
-         larger});
+    out_.findings.push_back({Fault::constant_rotation,
+                             fmt::format("the {}'s rotation is constant while "
+                                         "the other file rotates by {:.0f} deg",
+                                         name,
+                                         kDegrees * larger),
+                             "write the file with rotations, or use position "
+                             "errors only (eval -r trans_part)",
+                             1.0,
+                             larger});
   }
 
   /// Nothing agrees, whatever is repaired: replaces all other findings.
-  void check_recording(const Agreement& left) {
+  void check_recording(const Paired& repaired) {
     constexpr double kPosition = 0.4, kAlone = 0.7;
-    const double position = left.similarity / left.spread;
-    const bool disagrees =
-        left.has_rotations ? left.turning > kAlone && position > kPosition : position > kAlone;
-    if (!disagrees) return;
+    const Agreement left = agreement(repaired);
+    const double error = position_error(repaired, similarity(repaired));
+    const double position = error / left.spread;
+    if (left.turning < kAlone || position < (left.has_rotations ? kPosition : kAlone)) return;
     const double correlation = speed_correlation(*reference_, *estimate_, offset_);
     const double confidence = std::min(1.0, position) * (1.0 - correlation);
     if (correlation > kLeastCorrelation || confidence < kLeastConfidence) return;
-    if (auto dropped = check_dropped_frames(*reference_, *estimate_)) {
-      out_.findings = {std::move(*dropped)};
-      return;
-    }
-    out_.findings = {
-        {Fault::wrong_recording,
-         fmt::format("no repair makes the files agree: after alignment with scale, the position "
-                     "error is {:.3g} m, {:.0f} % of the reference's spread; correlation of speeds "
-                     "{:.2f}",
-                     left.similarity,
-                     100.0 * position,
-                     correlation),
-         "give files of the same recording",
-         confidence,
-         position}};
+    out_.findings.clear();
+    if (add(check_rate(*reference_, *estimate_))) return;
+    add(InputFinding{
+        Fault::wrong_recording,
+        fmt::format("no repair makes the files agree: after alignment with scale, the position "
+                    "error is {:.3g} m, {:.0f} % of the reference's spread; correlation of speeds "
+                    "{:.2f}",
+                    error,
+                    100.0 * position,
+                    correlation),
+        "give files of the same recording",
+        confidence,
+        position});
   }
 
   const Trajectory* reference_;

@@ -15,7 +15,7 @@ namespace loopbench::metrics {
 /// and other closures predict them better: chosen by every other closure, it has to reduce the
 /// median chi-squared of the remaining ones (of all, if there are less than six). Either the stated
 /// noise does not explain it as read, or significantly more closures agree with others afterwards.
-/// nullopt if there is none, and for one or two closures.
+/// nullopt if there is none, and for one or two closures (of graphs with scales, five).
 /// O(closures).
 std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& loops,
                                                 const Chain& chain);

@@ -1,11 +1,21 @@
 #include "metrics/doctor/loop_chain.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
+#include <utility>
 
 #include "metrics/doctor/sampling.hpp"
 
 namespace loopbench::metrics {
 namespace {
+
+/// Multiplies translations of twists.
+Matrix6 in_scale(double scale) {
+  Matrix6 out = Matrix6::Identity();
+  out.diagonal().head<3>().setConstant(scale);
+  return out;
+}
 
 LoopPath path_over(const Edge& edge, const Edge* over, const Chain& chain) {
   LoopPath out{&edge, over, edge.information.inverse()};
@@ -24,26 +34,22 @@ LoopPath path_over(const Edge& edge, const Edge* over, const Chain& chain) {
 
 }  // namespace
 
+Matrix6 Chain::covariance(std::size_t i, std::size_t j) const {
+  const Matrix6 to_end = in_scale(1.0 / poses[j].scale) * adjoint(poses[j].pose.inverse());
+  const Matrix6 of_steps = covariances[std::max(i, j)] - covariances[std::min(i, j)];
+  return to_end * of_steps * to_end.transpose();
+}
+
 Chain chain_of(const Problem& problem) {
-  std::vector<Matrix6> stated;
-  std::vector<double> of_translation, of_rotation;
+  Chain out{{ScaledPose{}}, {0.0}, {Matrix6::Zero()}};
   for (const Edge& step : problem.odometry) {
-    stated.push_back(step.information.inverse());
-    of_translation.push_back(stated.back().diagonal().head<3>().minCoeff());
-    of_rotation.push_back(stated.back().diagonal().tail<3>().minCoeff());
-  }
-  const double translation = median_value(of_translation), rotation = median_value(of_rotation);
-  Chain out{{ScaledPose{}}, {0.0}, {0.0}, {Matrix6::Zero()}};
-  for (std::size_t i = 0; i < stated.size(); ++i) {
-    const Edge& step = problem.odometry[i];
     out.has_scale |= step.scale != 1.0;
-    out.poses.push_back(normalized(out.poses.back() * ScaledPose{step.from_from_to, step.scale}));
+    out.poses.push_back(normalized(out.poses.back() * methods::measured(step)));
     out.distances.push_back(out.distances.back() + step.from_from_to.translation.norm());
-    out.steps.push_back(out.steps.back() +
-                        std::max(of_translation[i] / translation, of_rotation[i] / rotation));
     const ScaledPose& end = out.poses.back();
-    const Matrix6 to_first = adjoint(end.pose) * Chain::in_scale(end.scale);
-    out.covariances.push_back(out.covariances.back() + to_first * stated[i] * to_first.transpose());
+    const Matrix6 to_first = adjoint(end.pose) * in_scale(end.scale);
+    out.covariances.push_back(out.covariances.back() +
+                              to_first * step.information.inverse() * to_first.transpose());
   }
   for (const Edge& closure : problem.closures) out.has_scale |= closure.scale != 1.0;
   return out;
@@ -66,38 +72,43 @@ double LoopPath::chi_squared(const Chain& chain, const PoseChange& change) const
 }
 
 std::vector<LoopPaths> loop_paths(const std::vector<Edge>& closures, const Chain& chain) {
-  constexpr std::size_t kCompared = 200;  // bounds the cost
   std::vector<const Edge*> sorted;
   for (const Edge& edge : closures) sorted.push_back(&edge);
   std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::pair(e->to, e->from); });
   std::vector<LoopPaths> out;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const Edge& edge = *sorted[i];
-    std::vector<std::pair<double, const Edge*>> nearest;  // with the odometry that leads to them
-    double most = chain.count(edge.from, edge.to);
-    /// Whether closures that are listed further away can be nearer.
-    const auto compare = [&](const Edge& other) {
-      const double to_end = chain.count(edge.to, other.to);
-      const double all = to_end + chain.count(edge.from, other.from);
+    const double most = chain.variance(edge.from, edge.to);
+    std::vector<std::pair<double, const Edge*>> nearer;  // with the variance of the odometry
+    const std::size_t end = std::min(sorted.size(), i + kMostPoses + 1);
+    for (std::size_t j = i - std::min(i, kMostPoses); j < end; ++j) {
+      const Edge& other = *sorted[j];
+      const double all = chain.variance(edge.from, other.from) + chain.variance(edge.to, other.to);
       // A closure that is listed twice agrees with itself.
-      if (all < most && (other.from != edge.from || other.to != edge.to)) {
-        nearest.emplace_back(all, &other);
-        std::ranges::stable_sort(nearest, {}, &std::pair<double, const Edge*>::first);
-        if (nearest.size() > kFewestLoops) nearest.pop_back();
-        if (nearest.size() == kFewestLoops) most = nearest.back().first;
-      }
-      return to_end < most;
-    };
-    const std::size_t end = std::min(sorted.size(), i + kCompared + 1);
-    for (std::size_t j = i + 1; j < end && compare(*sorted[j]); ++j) {
+      const bool is_same = other.from == edge.from && other.to == edge.to;
+      if (all < most && !is_same) nearer.emplace_back(all, &other);
     }
-    for (std::size_t j = i; j > i - std::min(i, kCompared) && compare(*sorted[j - 1]); --j) {
-    }
+    const std::size_t count = std::min(kFewestLoops, nearer.size());
+    std::ranges::partial_sort(nearer, nearer.begin() + static_cast<std::ptrdiff_t>(count));
     out.push_back({path_over(edge, nullptr, chain), {}});
-    for (const auto& [count, other] : nearest)
-      out.back().over_closures.push_back(path_over(edge, other, chain));
+    for (std::size_t j = 0; j < count; ++j)
+      out.back().over_closures.push_back(path_over(edge, nearer[j].second, chain));
   }
   return out;
+}
+
+MedianFit::MedianFit(const std::vector<const LoopPaths*>& loops,
+                     const Chain& chain,
+                     const PoseChange& change) {
+  std::vector<double> direct, around;
+  for (const LoopPaths* loop : loops) {
+    direct.push_back(loop->odometry.chi_squared(chain, change));
+    if (!loop->over_closures.empty())
+      around.push_back(loop->over_closures.front().chi_squared(chain, change));
+  }
+  if (around.size() < loops.size() / 2) around = direct;
+  odometry = kFileRounding + median_value(std::move(direct));
+  over_closures = kFileRounding + median_value(std::move(around));
 }
 
 }  // namespace loopbench::metrics

@@ -1,14 +1,12 @@
 /// Composed odometry of a problem, and the paths over which it and other closures predict closures.
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
 #include "methods/solvers/groups/scaled_pose.hpp"
+#include "metrics/doctor/conventions.hpp"
 
 namespace loopbench::metrics {
 
@@ -17,38 +15,25 @@ using methods::ScaledPose;
 struct Chain {
   std::vector<ScaledPose> poses;     ///< first_from_keyframe
   std::vector<double> distances;     ///< travelled up to each keyframe [m]
-  std::vector<double> steps;         ///< up to each keyframe; more for steps of a larger variance
   std::vector<Matrix6> covariances;  ///< of each pose, as a twist in the frame of the first
   bool has_scale = false;            ///< some edge has one, so that translations have any scale
 
-  ScaledPose between(std::size_t i, std::size_t j) const {
-    const auto& [from, scale] = poses[i];
-    Pose out = from.inverse() * poses[j].pose;
-    out.translation /= scale;
-    return {out, poses[j].scale / scale};
-  }
+  ScaledPose between(std::size_t i, std::size_t j) const { return poses[i].inverse() * poses[j]; }
   /// Covariance of between(i, j) as a twist in the frame of j.
-  Matrix6 covariance(std::size_t i, std::size_t j) const {
-    const Matrix6 to_end = in_scale(1.0 / poses[j].scale) * adjoint(poses[j].pose.inverse());
-    const Matrix6 of_steps = covariances[std::max(i, j)] - covariances[std::min(i, j)];
-    return to_end * of_steps * to_end.transpose();
-  }
-  /// Multiplies translations.
-  static Matrix6 in_scale(double scale) {
-    Matrix6 out = Matrix6::Identity();
-    out.diagonal().head<3>().setConstant(scale);
-    return out;
-  }
-  double count(std::size_t i, std::size_t j) const { return std::abs(steps[j] - steps[i]); }
+  Matrix6 covariance(std::size_t i, std::size_t j) const;
   double distance(std::size_t i, std::size_t j) const {
     return std::abs(distances[j] - distances[i]);
+  }
+  /// Stated variance of the rotation between keyframes, which no frame changes [rad^2].
+  double variance(std::size_t i, std::size_t j) const {
+    return std::abs((covariances[j] - covariances[i]).diagonal().tail<3>().sum());
   }
 };
 
 /// The odometry edges have to be complete. O(keyframes).
 Chain chain_of(const Problem& problem);
 
-using PoseChange = std::function<Pose(const Pose&)>;
+inline Pose as_stated(const Pose& p) { return p; }
 
 /// A closure, and another one over which a path leads to its end; none: over odometry alone.
 struct LoopPath {
@@ -66,15 +51,25 @@ struct LoopPath {
 
 struct LoopPaths {
   LoopPath odometry;
-  /// The kFewestLoops with the least odometry, so that a false one is outvoted; shorter than the
-  /// loop.
+  /// The kFewestLoops with the least uncertain odometry, so that a false one is outvoted; less
+  /// uncertain than the loop.
   std::vector<LoopPath> over_closures;
 };
 
 inline constexpr std::size_t kFewestLoops = 3;  ///< one or two fit several explanations
 
-/// Sorted by the ends of the closures, of which at most 200 before and after are compared.
+/// Sorted by the ends of the closures, of which at most kMostPoses before and after are compared.
 /// O(closures log closures).
 std::vector<LoopPaths> loop_paths(const std::vector<Edge>& closures, const Chain& chain);
+
+/// Medians of chi-squared over odometry and over other closures, above zero: the first sees frames,
+/// the second no drift. Without enough other closures, both are the first. O(closures).
+struct MedianFit {
+  double odometry = 0.0, over_closures = 0.0;
+
+  MedianFit(const std::vector<const LoopPaths*>& loops,
+            const Chain& chain,
+            const PoseChange& change);
+};
 
 }  // namespace loopbench::metrics

@@ -5,13 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/finding.hpp"
+#include "metrics/doctor/sampling.hpp"
 
 namespace loopbench::metrics {
 
 inline constexpr double kLeastCorrelation = 0.6;  ///< of different recordings: 0.3, rarely 0.6
-inline constexpr double kNear = 10.0;             ///< [s]; larger offsets fit by chance more often
 
 struct TimeOffset {
   double offset = 0.0;          ///< to add to the estimate's stamps [s]
@@ -24,15 +23,13 @@ struct TimeOffset {
 /// Correlation of the speeds as read; 0 without common times. O(log n).
 double speed_correlation(const Trajectory& reference, const Trajectory& estimate, double offset);
 
-/// The offset with the largest correlation of linear and angular speed: at most `searched` [s], or
-/// else over all overlaps of at least half of the shorter file. Refined to a fraction of a sample.
-/// An offset below 1 s is preferred to a larger one that fits equally well, as periodic motion has.
-/// The deviation follows from the residuals of the speeds and their slopes. nullopt without enough
-/// motion, or if no offset explains the speeds (correlation below 0.6). O(1e5 log n).
+/// The offset with the largest correlation of linear and angular speed: at most 10 s, or else over
+/// all overlaps of at least half of the shorter file. Refined to a fraction of a sample. An offset
+/// below 1 s is preferred to a larger one that fits equally well, as periodic motion has. The
+/// deviation follows from the residuals of the speeds and their slopes. nullopt if no offset
+/// explains the speeds (correlation below 0.6). O(1e5 log n).
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
-                                               const Trajectory& estimate,
-                                               double searched = kNear,
-                                               bool is_limited = false);
+                                               const Trajectory& estimate);
 
 /// A finding if the offset is significant (five standard deviations, above 20 ms and 35 % of the
 /// estimate's interval) and reduces the errors after an alignment. Files without common time, and
@@ -43,11 +40,9 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& estimate,
                                            bool has_stamps);
 
-/// Speeds agree only with another rate of the stamps, or with another offset in each fifth of the
-/// estimate: it is of the same recording, but its stamps are frame numbers, or frames were dropped
-/// before stamps were written. O(1e5 log n).
-std::optional<InputFinding> check_dropped_frames(const Trajectory& reference,
-                                                 const Trajectory& estimate);
+/// Speeds agree only with another rate of the stamps: the estimate is of the same recording, but
+/// its stamps are frame numbers, or frames were dropped before stamps were written. O(1e5 log n).
+std::optional<InputFinding> check_rate(const Trajectory& reference, const Trajectory& estimate);
 
 /// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9; value:
 /// the divisor of the estimate's stamps, or its inverse for the reference's. O(1).
@@ -59,8 +54,8 @@ std::optional<InputFinding> check_overlap(const Trajectory& reference,
                                           const Trajectory& estimate,
                                           double offset);
 
-/// The estimate has no poses in at least a quarter of the reference's path, or in 12 % between its
-/// first and last pose, in gaps above 2 s and ten of its usual intervals. O(log n).
+/// The estimate has no poses in at least a quarter of the reference's path, in gaps above 2 s and
+/// ten of its usual intervals. O(log n).
 std::optional<InputFinding> check_missing(const Trajectory& reference,
                                           const Trajectory& estimate,
                                           double offset);

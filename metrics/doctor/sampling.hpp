@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -35,7 +34,7 @@ inline double median_value(std::vector<double> values) {
 inline std::size_t even_step(std::size_t size, std::size_t most) { return size / (most + 1) + 1; }
 
 /// Median of at most kMostPoses evenly chosen intervals [s]; 0 below two poses. O(1).
-inline double usual_interval(std::span<const StampedPose> poses) {
+inline double usual_interval(const Trajectory& poses) {
   std::vector<double> intervals;
   const std::size_t step = even_step(poses.size(), kMostPoses);
   for (std::size_t i = 1; i < poses.size(); i += step) {
@@ -50,10 +49,16 @@ inline double longest_gap(const Trajectory& poses) {
   return std::max(1.0, kUsualGaps * usual_interval(poses));
 }
 
+/// Index of the first pose that is not before `stamp`; the number of poses if there is none.
+/// O(log n).
+inline std::size_t first_from(const Trajectory& poses, double stamp) {
+  const auto found = std::ranges::lower_bound(poses, stamp, {}, &StampedPose::stamp);
+  return static_cast<std::size_t>(found - poses.begin());
+}
+
 /// Pose at any time, interpolated across gaps of at most `max_gap` [s]. O(log n).
 inline std::optional<Pose> pose_near(const Trajectory& poses, double stamp, double max_gap) {
-  const auto found = std::ranges::lower_bound(poses, stamp, {}, &StampedPose::stamp);
-  auto after = static_cast<std::size_t>(found - poses.begin());
+  std::size_t after = first_from(poses, stamp);
   return pose_at(poses, stamp, max_gap + kStampRounding, after);
 }
 
@@ -65,19 +70,15 @@ inline Paired common_poses(const Trajectory& reference,
                            double offset = 0.0,
                            std::size_t most = kMostPoses) {
   Paired out;
+  if (reference.empty()) return out;
   const double gap = longest_gap(reference);
   const auto completed = [](Pose pose) {
     if (!has_rotation(pose)) pose.rotation = Rotation::Identity();
     return pose;
   };
-  if (reference.empty()) return out;
-  const auto index = [&](double stamp) {
-    return static_cast<std::size_t>(
-        std::ranges::lower_bound(estimate, stamp - offset, {}, &StampedPose::stamp) -
-        estimate.begin());
-  };
-  const std::size_t begin = index(reference.front().stamp);
-  const std::size_t end = std::min(estimate.size(), index(reference.back().stamp) + 1);
+  const std::size_t begin = first_from(estimate, reference.front().stamp - offset);
+  const std::size_t end =
+      std::min(estimate.size(), first_from(estimate, reference.back().stamp - offset) + 1);
   for (std::size_t i = begin; i < end; i += even_step(end - begin, most)) {
     const auto& [stamp, pose] = estimate[i];
     const auto found = pose_near(reference, stamp + offset, gap);
@@ -95,19 +96,12 @@ inline double overlap(const Trajectory& a, const Trajectory& b) {
   return std::min(a.back().stamp, b.back().stamp) - std::max(a.front().stamp, b.front().stamp);
 }
 
-/// Whether stamps are whole numbers that begin near zero, a few apart (keyframes skip frames).
-/// O(1).
+/// Whether the stamps are small whole numbers, as those of rows or frames. O(n).
 inline bool has_frame_indices(const Trajectory& poses) {
-  constexpr double kMostFirst = 1e6,
-                   kMostStep = 20.0;  // Unix time is larger; keyframes skip frames
-  const double first = poses.front().stamp;
-  if (poses.size() < kFewestCommonPoses || first < 0.0 || first > kMostFirst ||
-      usual_interval(poses) > kMostStep)
-    return false;
-  for (std::size_t i = 0; i < poses.size(); i += even_step(poses.size(), kMostPoses)) {
-    if (std::abs(poses[i].stamp - std::round(poses[i].stamp)) > kStampRounding) return false;
-  }
-  return true;
+  constexpr double kMost = 1e6;  // Unix time is larger
+  return std::ranges::all_of(poses, [](const StampedPose& pose) {
+    return pose.stamp == std::round(pose.stamp) && std::abs(pose.stamp) < kMost;
+  });
 }
 
 }  // namespace loopbench::metrics

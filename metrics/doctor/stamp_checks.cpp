@@ -4,12 +4,20 @@
 #include <cmath>
 #include <filesystem>
 #include <regex>
+#include <string_view>
 #include <utility>
 
+#include "metrics/doctor/graph_checks.hpp"
 #include "metrics/doctor/pair_checks.hpp"
+#include "metrics/doctor/sampling.hpp"
 
 namespace loopbench::metrics {
 namespace {
+
+constexpr double kHardly = 0.01, kMostly = 0.5;  // of stamps, or of a duration
+
+constexpr std::pair<double, std::string_view> kUnits[] = {
+    {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-9, "nanoseconds"}};
 
 /// Whether a word of the last two parts of a path names a reference, not one that it is aligned to.
 bool names_truth(const std::string& name) {
@@ -20,6 +28,15 @@ bool names_truth(const std::string& name) {
   const std::filesystem::path path(name);
   const std::string parts = (path.parent_path().filename() / path.filename()).string();
   return std::regex_search(parts, known) && !std::regex_search(parts, other);
+}
+
+/// Part of the stamps that are those of poses after multiplication by a factor.
+double found_part(const std::vector<double>& loops, const Trajectory& poses, double factor) {
+  const auto count = std::ranges::count_if(loops, [&](double stamp) {
+    const std::size_t next = first_from(poses, factor * stamp - kLeastOffset);
+    return next < poses.size() && poses[next].stamp <= factor * stamp + kLeastOffset;
+  });
+  return static_cast<double>(count) / static_cast<double>(loops.size());
 }
 
 }  // namespace
@@ -35,13 +52,10 @@ std::optional<InputFinding> check_swapped(const std::string& reference_name,
 
 std::optional<InputFinding> check_stamp_unit(const Trajectory& reference,
                                              const Trajectory& estimate) {
-  constexpr double kHardly = 0.01, kMostly = 0.5;  // of a duration
   if (reference.size() < 2 || estimate.size() < 2) return std::nullopt;
   const double longest = std::max(duration(reference), duration(estimate));
   if (overlap(reference, estimate) > kHardly * longest) return std::nullopt;
-  for (const auto& [factor, unit] : {std::pair{1e-3, "milliseconds"},
-                                     std::pair{1e-6, "microseconds"},
-                                     std::pair{1e-9, "nanoseconds"}}) {
+  for (const auto& [factor, unit] : kUnits) {
     for (const bool is_reference : {false, true}) {
       const Trajectory& wrong = is_reference ? reference : estimate;
       const Trajectory& other = is_reference ? estimate : reference;
@@ -88,42 +102,74 @@ std::optional<InputFinding> check_overlap(const Trajectory& reference,
 std::optional<InputFinding> check_missing(const Trajectory& reference,
                                           const Trajectory& estimate,
                                           double offset) {
-  constexpr double kLeastShare = 0.25, kLeastLost = 0.12, kLeastGap = 2.0;  // of the path; [s]
+  constexpr double kLeastShare = 0.25, kLeastGap = 2.0;  // of the path; [s]
   if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
   const double least = std::max(kLeastGap, kUsualGaps * usual_interval(estimate));
-  double all = 0.0, missing = 0.0, lost = 0.0, longest = 0.0, begin = 0.0;  // lost: between poses
+  double all = 0.0, missing = 0.0, longest = 0.0, begin = 0.0;
   const std::size_t step = even_step(reference.size(), kMostPoses);
-  const double pause = std::max(least, 3.0 * static_cast<double>(step) * usual_interval(reference));
   for (std::size_t i = step; i < reference.size(); i += step) {
-    if (reference[i].stamp - reference[i - step].stamp > pause) continue;  // in both files
-    const Pose& from = reference[i - step].world_from_body;
-    const double length = (reference[i].world_from_body.translation - from.translation).norm();
+    const auto& [from, pose] = reference[i - step];
+    const double length = (reference[i].world_from_body.translation - pose.translation).norm();
     all += length;
-    const double stamp = 0.5 * (reference[i - step].stamp + reference[i].stamp) - offset;
-    const auto next = std::ranges::lower_bound(estimate, stamp, {}, &StampedPose::stamp);
-    const bool is_after = next == estimate.end(), is_before = next == estimate.begin();
-    const double low = is_before ? reference.front().stamp - offset : std::prev(next)->stamp;
-    const double high = is_after ? reference.back().stamp - offset : next->stamp;
+    const std::size_t next = first_from(estimate, 0.5 * (from + reference[i].stamp) - offset);
+    const double low = (next == 0 ? reference.front().stamp - offset : estimate[next - 1].stamp);
+    const double high =
+        next == estimate.size() ? reference.back().stamp - offset : estimate[next].stamp;
     if (high - low <= least) continue;
     missing += length;
-    if (!is_after && !is_before) lost += length;
     if (high - low > longest) {
       longest = high - low;
       begin = low;
     }
   }
-  const double share = all > 0.0 ? missing / all : 0.0;
-  if (share < kLeastShare && lost <= kLeastLost * all) return std::nullopt;
+  if (!(missing > kLeastShare * all)) return std::nullopt;
   return InputFinding{
       Fault::missing_poses,
       fmt::format("the estimate has no poses for {:.0f} % of the reference's path; the longest "
                   "gap has {:.1f} s and begins at {:.3f}",
-                  100.0 * share,
+                  100.0 * missing / all,
                   longest,
                   begin),
       "errors hold for the covered part only: state the coverage, or run the system again",
       1.0,
-      share};
+      missing / all};
+}
+
+std::optional<InputFinding> check_loop_stamps(const std::vector<double>& loops,
+                                              const Trajectory& poses) {
+  if (loops.empty() || poses.empty()) return std::nullopt;
+  const double as_read = found_part(loops, poses, 1.0);
+  if (as_read > kMostly) return std::nullopt;
+  const auto [first, last] = std::ranges::minmax(loops);
+  const double begin = poses.front().stamp, end = poses.back().stamp;
+  InputFinding out{Fault::loop_stamps,
+                   fmt::format("{:.0f} % of the loops' stamps ({:.15g} to {:.15g}) are those of "
+                               "poses ({:.3f} to {:.3f})",
+                               100.0 * as_read,
+                               first,
+                               last,
+                               begin,
+                               end),
+                   "give the loops of this trajectory, with its stamps",
+                   1.0 - as_read,
+                   begin - first};
+  for (const auto& [factor, unit] : kUnits) {
+    // Stamps in seconds are a single one in another unit.
+    const bool is_single = factor * (last - first) < kHardly * (end - begin);
+    if (is_single || found_part(loops, poses, factor) <= kMostly) continue;
+    out.evidence += fmt::format(": they are {}", unit);
+    out.fix = "write the stamps of the loops in seconds";
+    out.value = 1.0 / factor;
+    return out;
+  }
+  const auto is_index = [&](double stamp) {
+    return stamp == std::round(stamp) && stamp >= 0.0 && stamp < begin;
+  };
+  if (last <= static_cast<double>(poses.size()) && std::ranges::all_of(loops, is_index)) {
+    out.evidence += ": they are numbers of poses or frames";
+    out.fix = "write the stamps of the poses";
+  }
+  return out;
 }
 
 }  // namespace loopbench::metrics

@@ -1,15 +1,130 @@
 #include <fmt/format.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "datasets/core/se3.hpp"
+#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/pair_checks.hpp"
-#include "metrics/doctor/speed_match.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
 namespace {
+
+constexpr std::size_t kManyIntervals = 600;  // correlations are known to 0.04
+constexpr std::size_t kFewIntervals = 60;    // for many offsets: correlations to 0.13
+constexpr double kSameCorrelation = 0.85;    // of offsets and rates that nothing else supports
+constexpr double kNear = 10.0;               // [s]; larger offsets fit by chance more often
+
+/// Pearson's correlation; 0 for a constant.
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto centred = [](const std::vector<double>& values) {
+    const Eigen::Map<const Eigen::VectorXd> all(values.data(), std::ssize(values));
+    return Eigen::VectorXd(all.array() - all.mean());
+  };
+  const Eigen::VectorXd x = centred(a), y = centred(b);
+  const double norm = x.norm() * y.norm();
+  return norm > 0.0 ? x.dot(y) / norm : 0.0;
+}
+
+struct SpeedScore {
+  double angle = 0.0, distance = 0.0;
+  bool is_known = false;  ///< at least a fifth of the intervals are common
+
+  /// One of the speeds is enough: a vehicle at constant speed, a drifting scale.
+  double best() const {
+    constexpr double kPenalty = 0.15;  // a single speed fits by chance more often
+    if (!is_known) return -1.0;
+    return std::max({0.5 * (angle + distance), angle - kPenalty, distance - kPenalty});
+  }
+};
+
+/// Linear and angular speeds of both over intervals of the estimate that do not overlap, at most
+/// `most` and evenly chosen, of at least `shortest` [s]. Its stamps are read as begin + factor *
+/// (stamp - first).
+class SpeedMatch {
+ public:
+  SpeedMatch(const Trajectory& reference,
+             const Trajectory& estimate,
+             std::size_t most,
+             double shortest,
+             double begin,
+             double factor = 1.0)
+      : reference_(reference), gap_(std::max(shortest, longest_gap(reference))) {
+    const std::size_t step = std::max<std::size_t>(1, estimate.size() / most);
+    const auto time = [&](double stamp) {
+      return begin + factor * (stamp - estimate.front().stamp);
+    };
+    for (std::size_t i = 0, j = 0; i < estimate.size(); i = std::max(j, i + step)) {
+      j = first_from(estimate, estimate[i].stamp + shortest / factor);
+      if (j == estimate.size()) break;
+      const double from = time(estimate[i].stamp), to = time(estimate[j].stamp);
+      if (to - from > kUsualGaps * shortest) continue;
+      intervals_.push_back({from, to, estimate[i].world_from_body, estimate[j].world_from_body});
+    }
+  }
+
+  auto size() const { return static_cast<double>(intervals_.size()); }
+
+  /// O(intervals log n).
+  SpeedScore score(double offset) const {
+    std::vector<double> angles[2], distances[2];
+    const auto add = [&](int of, const Pose& from, const Pose& to, double seconds) {
+      const double angle = has_rotation(from) ? angle_between(from.rotation, to.rotation) : 0.0;
+      angles[of].push_back(angle / seconds);
+      distances[of].push_back((to.translation - from.translation).norm() / seconds);
+    };
+    for (const auto& [begin, end, from, to] : intervals_) {
+      const auto reference_from = pose_near(reference_, begin + offset, gap_);
+      if (!reference_from) continue;
+      const auto reference_to = pose_near(reference_, end + offset, gap_);
+      if (!reference_to) continue;
+      add(0, *reference_from, *reference_to, end - begin);
+      add(1, from, to, end - begin);
+    }
+    if (angles[0].size() < std::max(kFewestCommonPoses / 2, intervals_.size() / 5)) return {};
+    return {correlation(angles[0], angles[1]), correlation(distances[0], distances[1]), true};
+  }
+
+  double at(double offset) const { return score(offset).best(); }
+
+ private:
+  struct Interval {
+    double begin, end;  // [s]
+    Pose from, to;
+  };
+  const Trajectory& reference_;
+  double gap_;
+  std::vector<Interval> intervals_;
+};
+
+struct BestOffset {
+  double offset = 0.0;
+  double score = -1.0;
+};
+
+/// Periodic speeds fit equally well at several offsets; of these, the one near zero is likely.
+BestOffset search_offsets(const SpeedMatch& match, double low, double high, double step) {
+  constexpr double kLikely = 1.0,
+                   kPart = 0.1;  // [s]; of what the speeds do not explain
+  const auto steps = static_cast<int>(std::floor((high - low) / step + 1e-6));
+  BestOffset best;
+  for (int i = 0; i <= steps; ++i) {
+    const double offset = low + i * step, score = match.at(offset);
+    const double less = std::abs(offset) > kLikely ? kPart * (1.03 - score) : 0.0;
+    if (score - less > best.score) best = {offset, score - less};
+  }
+  return best;
+}
+
+/// Shortest interval over which speeds exceed noise [s].
+double least_interval(const Trajectory& reference, const Trajectory& estimate) {
+  constexpr double kShortest = 0.1;
+  return std::max({kShortest, usual_interval(reference), 0.99 * usual_interval(estimate)});
+}
 
 /// The vertex of the parabola through three scores, and its standard deviation in least squares of
 /// the angles and of the distances: from the part of both that is not explained, and the curvature
@@ -40,40 +155,31 @@ double speed_correlation(const Trajectory& reference, const Trajectory& estimate
 }
 
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
-                                               const Trajectory& estimate,
-                                               double searched,
-                                               bool is_limited) {
+                                               const Trajectory& estimate) {
   constexpr double kSteps = 200.0;  // of the search of all overlaps
   if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
   const double first = estimate.front().stamp, interval = least_interval(reference, estimate);
   const SpeedMatch match(reference, estimate, kManyIntervals, interval, first);
   const SpeedMatch few(reference, estimate, kFewIntervals, interval, first);
-  TimeOffset out;
-  const SpeedScore before = match.score(0.0);
-  out.before = std::max(0.0, before.best());
-  out.has_common_time = before.is_known;
   const double coarse = std::clamp(interval, 0.2, 0.5), fine = 0.2 * coarse;
-  const bool agrees =
-      before.best() > std::max({kSameCorrelation, match.at(-coarse), match.at(coarse)});
-  BestOffset best{0.0, before.best()};
-  if (!agrees) best = search_offsets(few, -searched, searched, coarse);
-  if (best.score < kLeastCorrelation && !is_limited) {
+  BestOffset best = search_offsets(few, -kNear, kNear, coarse);
+  if (best.score < kLeastCorrelation) {
     // At least half of the shorter one must be common: a short overlap can fit by chance.
     const double shorter = std::min(duration(reference), duration(estimate));
     const double low = reference.front().stamp - estimate.back().stamp + 0.5 * shorter;
-    const double high = reference.back().stamp - estimate.front().stamp - 0.5 * shorter;
+    const double high = reference.back().stamp - first - 0.5 * shorter;
     const double step = std::max(coarse, (high - low) / kSteps);
     const SpeedMatch wide(reference, estimate, kFewIntervals, std::max(interval, step), first);
     const double rough = search_offsets(wide, low, high, step).offset;
     best = search_offsets(few, rough - step, rough + step, std::max(coarse, step / kSteps));
   }
+  const SpeedScore before = match.score(0.0);
   if (before.best() > best.score) best = {0.0, before.best()};
   best = search_offsets(match, best.offset - coarse, best.offset + coarse, fine);
-  if (best.score < kLeastCorrelation - 0.1) return std::nullopt;  // refine() may raise it
-  out.offset = best.offset;
+  TimeOffset out{.offset = best.offset,
+                 .before = std::max(0.0, before.best()),
+                 .has_common_time = before.is_known};
   refine(match, fine, out);
-  // Where stamps are equal, interpolation smooths neighbouring offsets.
-  if (std::isinf(out.deviation)) refine(match, coarse, out);
   out.correlation = match.at(out.offset);
   if (out.correlation < kLeastCorrelation) return std::nullopt;
   return out;
@@ -84,8 +190,6 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& estimate,
                                            bool has_stamps) {
   constexpr double kOfInterval = 0.35, kDeviations = 5.0;  // [s]; significant
-  constexpr double kLeastGain = 0.1, kMostRatio = 0.9;     // of the errors after an alignment
-  constexpr double kMostUsual = 0.8;                       // of the median error of rotations
   const double size = std::abs(found.offset), period = usual_interval(estimate);
   const double significant = kOfInterval * std::min(0.2, period);
   if (size < std::max({kLeastOffset, significant, kDeviations * found.deviation}))
@@ -94,41 +198,64 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
   const bool is_whole = std::abs(found.offset - rows * period) < kOfInterval * period;
   if (!has_stamps && (rows == 0.0 || !is_whole)) return std::nullopt;
   const double offset = has_stamps ? found.offset : rows * period;
+  const bool is_near = found.has_common_time && size <= kNear;
+  if (!is_near && found.correlation < kSameCorrelation) return std::nullopt;
   double confidence = 0.5;
   std::string change =
       fmt::format("correlation of speeds {:.3f} -> {:.3f}", found.before, found.correlation);
   if (found.has_common_time) {
     const Agreement before = agreement(common_poses(reference, estimate));
     const Agreement after = agreement(common_poses(reference, estimate, offset));
-    Improvement gained = improvement(before, after);
-    const double usual = after.usual_turning / std::max(kNoNoise, before.usual_turning);
-    // Where an estimate is lost, its errors hide a shift of rows, but not in their median.
-    const bool is_usual = !has_stamps && usual < kMostUsual;
-    if (is_usual && usual < gained.ratio)
-      gained = {fmt::format("median error of relative rotations {:.2g} -> {:.2g} deg",
-                            kDegrees * before.usual_turning,
-                            kDegrees * after.usual_turning),
-                usual};
-    const double least = is_usual ? 0.0 : kLeastGain;
-    if (after.cost() > before.cost() - least || gained.ratio > kMostRatio) return std::nullopt;
+    const Improvement gained = improvement(before, after);
+    if (gained.ratio > kMostRatio || after.cost() > before.cost()) return std::nullopt;
     change += ", " + gained.text;
     confidence = std::max(kLeastConfidence, 1.0 - gained.ratio);
   }
-  const bool is_near = found.has_common_time && size <= kNear;
-  if (!is_near && found.correlation < kSameCorrelation) return std::nullopt;
-  const std::string what =
-      has_stamps ? fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s {} the reference's",
-                               size,
-                               found.deviation,
-                               offset > 0.0 ? "behind" : "ahead of")
-                 : fmt::format("row i of the estimate belongs to row i {} {:.0f} of the reference",
-                               rows > 0.0 ? "+" : "-",
-                               std::abs(rows));
+  const std::string what = has_stamps ? fmt::format(
+                                            "the estimate's stamps are {:.3f} +- {:.3f} s "
+                                            "{} the reference's",
+                                            size,
+                                            found.deviation,
+                                            offset > 0.0 ? "behind" : "ahead of")
+                                      : fmt::format(
+                                            "row i of the estimate belongs to row i {} "
+                                            "{:.0f} of the reference",
+                                            rows > 0.0 ? "+" : "-",
+                                            std::abs(rows));
   return InputFinding{Fault::time_offset,
                       what + ": " + change,
                       fmt::format("--offset {:.4f}", offset),
                       confidence,
                       offset};
+}
+
+std::optional<InputFinding> check_rate(const Trajectory& reference, const Trajectory& estimate) {
+  constexpr double kCells = 120.0;  // of the reference, whose speeds are compared
+  constexpr int kSearched = 6;      // per cent of the rate, and cells
+  const double cell = duration(reference) / kCells;
+  double factor = 1.0;
+  BestOffset best;
+  for (int percent = -kSearched; percent <= kSearched; ++percent) {
+    const double each =
+        duration(reference) / duration(estimate) * (1.0 + 0.01 * static_cast<double>(percent));
+    const SpeedMatch match(reference, estimate, kFewIntervals, cell, reference.front().stamp, each);
+    const BestOffset found = search_offsets(match, -kSearched * cell, kSearched * cell, cell);
+    if (found.score < best.score) continue;
+    best = found;
+    factor = each;
+  }
+  if (best.score < kSameCorrelation) return std::nullopt;
+  const bool has_indices = has_frame_indices(estimate) && !has_frame_indices(reference);
+  return InputFinding{
+      has_indices ? Fault::no_overlap : Fault::missing_poses,
+      fmt::format("the estimate's stamps {}: times {:.3g}, correlation of "
+                  "speeds {:.2f}",
+                  has_indices ? "are frame numbers" : "have another rate, or it lacks poses",
+                  factor,
+                  best.score),
+      "write the stamp of each frame in seconds",
+      kSameCorrelation,
+      factor};
 }
 
 }  // namespace loopbench::metrics

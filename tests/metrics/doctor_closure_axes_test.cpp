@@ -67,7 +67,7 @@ TEST(DoctorOfClosures, NamesTheAxesOfAnotherBody) {
     problem.closures.push_back({i, i + 40, body.inverse() * loop * body, information});
   }
   const InputFinding found = only(check_closures(problem), Fault::closure_convention);
-  EXPECT_THAT(found.evidence, HasSubstr("taking z,-x,-y of the closures' body"));
+  EXPECT_THAT(found.evidence, HasSubstr("taking z,-x,-y as x,y,z in the body of the closures"));
 }
 
 /// A place recogniser without registration states the identity.

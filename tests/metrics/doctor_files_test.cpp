@@ -169,7 +169,7 @@ TEST(Doctor, PrintsWhatARepairChanges) {
     return {p.rotation, {p.translation.y(), p.translation.x(), p.translation.z()}};
   });
   const InputFinding found = only_finding(truth(), exchanged, Fault::mirrored);
-  EXPECT_THAT(found.evidence, HasSubstr("taking y,x,z of the estimate's positions as x,y,z: "));
+  EXPECT_THAT(found.evidence, HasSubstr("taking y,x,z as x,y,z in the positions of the estimate: "));
   EXPECT_THAT(found.evidence, HasSubstr(" -> "));
 }
 
