@@ -198,7 +198,8 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
   out.group = out.source;
   out.notes = sequence.provenance.notes;
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
-    out.notes.push_back(to_text(metrics::evaluate_detection(sequence, {})));
+    out.notes.push_back(to_text(
+        metrics::evaluate_detection(problem, sequence.reference, sequence.loop_candidates, {})));
   }
   if (const std::string note = equal_reference(sequence); !note.empty()) {
     out.notes.push_back("oracle: " + note);

@@ -39,7 +39,6 @@ class ChordalMatrix {
   }
 
   Eigen::Index size() const { return size_; }  ///< keyframes
-  const std::vector<Link>& links() const { return links_; }
   const Block& diagonal(Eigen::Index i) const { return diagonal_[static_cast<std::size_t>(i)]; }
   /// Of symmetric matrices with a block per keyframe, such as M.
   const methods::EliminationStructure& structure() const { return structure_; }

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
-#include "datasets/core/polyline.hpp"
+#include "datasets/core/interpolate.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
@@ -21,11 +22,10 @@ struct Scored {
 std::vector<std::optional<Pose>> truth_of(const Trajectory& keyframes,
                                           const Trajectory& reference) {
   std::vector<std::optional<Pose>> out(keyframes.size());
-  const Polyline curve(reference);
+  constexpr double kAnyGap = std::numeric_limits<double>::infinity();
+  std::size_t after = 0;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
-    const double stamp = keyframes[i].stamp;
-    if (stamp < reference.front().stamp || stamp > reference.back().stamp) continue;
-    out[i] = curve.sample({stamp}).front().world_from_body;
+    out[i] = pose_at(reference, keyframes[i].stamp, kAnyGap, after);
   }
   return out;
 }
@@ -144,8 +144,7 @@ std::vector<Score> loop_detection(const Evaluation& evaluation, const DetectionR
   const auto& candidates = needed(context.loop_candidates, name, "loop candidates");
   if (candidates.empty()) {
     throw Undefined(name +
-                    ": no loop candidates; only image sequences with place recognition have "
-                    "them");
+                    ": no loop candidates; only image sequences with place recognition have them");
   }
   const Trajectory& reference = needed(context.reference, name, "a reference");
   if (reference.empty()) throw Undefined(name + ": needs a reference");

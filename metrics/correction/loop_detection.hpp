@@ -60,10 +60,6 @@ Detection evaluate_detection(const Problem& problem,
                              const std::vector<LoopCandidate>& candidates,
                              const DetectionRule& rule);
 
-inline Detection evaluate_detection(const Sequence& sequence, const DetectionRule& rule) {
-  return evaluate_detection(sequence.problem, sequence.reference, sequence.loop_candidates, rule);
-}
-
 /// One-line summary.
 std::string to_text(const Detection& detection);
 

@@ -1,8 +1,8 @@
 #include "metrics/correction/optimality.hpp"
 
-#include <array>
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
@@ -142,9 +142,7 @@ std::vector<Score> optimality(const Evaluation& evaluation, const NoOptions&) {
 std::string gap_text(double percent) {
   if (percent < 1e-4) return "globally optimal";
   if (percent >= 100.0) return "not proved";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "at most %.3g", percent);
-  return text.data();
+  return fmt::format("at most {:.3g}", percent);
 }
 
 }  // namespace loopbench::metrics

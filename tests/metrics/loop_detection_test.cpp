@@ -24,7 +24,7 @@ Detection evaluated(const Sequence& sequence) {
   DetectionRule rule;
   rule.radius = 0.5;
   rule.min_gap = 1.5;
-  return evaluate_detection(sequence, rule);
+  return evaluate_detection(sequence.problem, sequence.reference, sequence.loop_candidates, rule);
 }
 
 TEST(LoopDetection, AllRightIsOneThroughout) {
