@@ -152,8 +152,9 @@ void add_moves(const Problem& problem,
   }
 }
 
-LedgerVerdict verdict_of(const ClosureLedger& ledger) {
-  if (ledger.rows.size() > 1 && ledger.largest_chi2 > kContradiction) {
+/// `largest_chi2`: per degree of freedom, of a closure to the solution without it or its place.
+LedgerVerdict verdict_of(const ClosureLedger& ledger, double largest_chi2) {
+  if (ledger.rows.size() > 1 && largest_chi2 > kContradiction) {
     return ledger.odometry_chi2 > kTooSmall ? LedgerVerdict::covariances
                                             : LedgerVerdict::contradiction;
   }
@@ -196,14 +197,15 @@ ClosureLedger unranked_ledger(const Problem& problem, bool with_moves) {
     out.better_places = better;
   }
   const double dof = problem.planar ? 3.0 : 6.0;
+  double largest_chi2 = 0.0;
   std::vector<double> odometry_chi2;
   for (const LedgerRow& row : out.rows) {
     odometry_chi2.push_back(row.in_odometry.chi2);
     const double by_places = row.predicted ? row.predicted->chi2 : 0.0;
-    out.largest_chi2 = std::max({out.largest_chi2, by_places, row.cost_drop / dof});
+    largest_chi2 = std::max({largest_chi2, by_places, row.cost_drop / dof});
   }
   out.odometry_chi2 = upper_median(odometry_chi2);
-  out.verdict = verdict_of(out);
+  out.verdict = verdict_of(out, largest_chi2);
   return out;
 }
 

@@ -54,9 +54,6 @@ struct ClosureLedger {
   std::size_t better_places = 0;  ///< whose prediction has a smaller error than the odometry
   double ratio = 1.0;    ///< geometric mean over places of predicted over odometry's error [-]
   double covered = 0.0;  ///< share of the path inside loops of two or more places [-]
-  /// Largest squared distance per degree of freedom of a closure to the solution without it, or
-  /// without its place [-].
-  double largest_chi2 = 0.0;
   /// Median over closures of `in_odometry.chi2`. False closures do not change that of others, so it
   /// stays near 1 while most closures are true and the covariances are right.
   double odometry_chi2 = 0.0;
