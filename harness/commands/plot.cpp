@@ -37,8 +37,7 @@ struct PlotArguments {
 /// "se3 alignment" of the first protocol of a sweep, whose trajectories are stored; empty if the
 /// store does not state it.
 std::string alignment_of(const ReportContent& content) {
-  const auto found = content.run.find("protocol");
-  const std::string rules = found == content.run.end() ? "" : found->second;
+  const std::string rules = content.run_value("protocol");
   const std::size_t begin = rules.find("align=", rules.find("]: "));  // after name and changes
   if (begin == std::string::npos) return "";
   const std::string how = rules.substr(begin + 6, rules.find(',', begin) - begin - 6);

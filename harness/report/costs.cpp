@@ -41,8 +41,17 @@ std::vector<double> values_of(const std::vector<const CellRow*>& cells, Get get)
   return out;
 }
 
+/// The median, times `unit`.
+std::string median_text(const std::vector<double>& values, double unit, const char* format) {
+  return values.empty() ? "-" : fmt::format(fmt::runtime(format), unit * metrics::median(values));
+}
+
 std::string milliseconds(const std::vector<double>& seconds) {
-  return seconds.empty() ? "-" : fmt::format("{:.4g}", 1e3 * metrics::median(seconds));
+  return median_text(seconds, 1e3, "{:.4g}");
+}
+
+std::string median_count(const std::vector<double>& counts) {
+  return median_text(counts, 1.0, "{:.6g}");
 }
 
 /// With the wall time beside a time that programs state.
@@ -54,18 +63,6 @@ std::string time_text(const std::vector<const CellRow*>& cells) {
     return found == cell.phases.end() ? std::nullopt : std::optional(found->seconds);
   });
   return wall.empty() ? time : time + " (s), wall " + milliseconds(wall);
-}
-
-std::string least_milliseconds(const std::vector<double>& seconds) {
-  return seconds.empty() ? "-" : fmt::format("{:.4g}", 1e3 * std::ranges::min(seconds));
-}
-
-std::string median_percent(const std::vector<double>& shares) {
-  return shares.empty() ? "-" : fmt::format("{:.1f}", 100.0 * metrics::median(shares));
-}
-
-std::string median_count(const std::vector<double>& counts) {
-  return counts.empty() ? "-" : fmt::format("{:.6g}", metrics::median(counts));
 }
 
 std::string megabytes(const std::vector<double>& bytes) {
@@ -131,14 +128,15 @@ Table costs(const std::vector<CellRow>& cells) {
       return !has_numbers(cell->status) && cell->status != Status::declined;
     });
     const auto values = [&](const auto& get) { return values_of(method.timed, get); };
+    const std::vector<double> least = values([](const auto& c) { return c.cpu_seconds_min; });
     out.lines.push_back(
         {method.name,
          std::to_string(method.all.size()),
          std::to_string(failed),
          time_text(method.timed),
          milliseconds(values([](const auto& c) { return c.cpu_seconds; })),
-         least_milliseconds(values([](const auto& c) { return c.cpu_seconds_min; })),
-         median_percent(values([](const auto& c) { return c.cpu_variation; })),
+         least.empty() ? "-" : fmt::format("{:.4g}", 1e3 * std::ranges::min(least)),
+         median_text(values([](const auto& c) { return c.cpu_variation; }), 100.0, "{:.1f}"),
          median_count(values([](const auto& c) { return std::optional(c.runs); })),
          megabytes(values([](const auto& c) { return c.peak_memory; })),
          megabytes(values([](const auto& c) { return c.added_memory; })),
