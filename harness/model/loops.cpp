@@ -103,24 +103,16 @@ std::string plain_number(double value) {
 
 std::string verdict_text(const LoopsResult& result) {
   const ClosureLedger& ledger = result.ledger;
-  switch (ledger.verdict) {
-    case LedgerVerdict::helps:
-      return places_text(ledger) + " The correction probably helps; by how much is not known.";
-    case LedgerVerdict::not_shown:
-      return places_text(ledger) +
-             " Whether the correction helps is not shown: the others do not predict a place "
-             "clearly better than the odometry does.";
-    case LedgerVerdict::little_covered:
-      return places_text(ledger) +
-             " Whether the correction helps is not shown: at least 30 % would be needed, from "
-             "closures at other places.";
-    case LedgerVerdict::few_places:
-      return few_places_text(ledger);
-    case LedgerVerdict::contradiction:
-    case LedgerVerdict::covariances:
-      return contradiction_text(result);
+  if (methods::is_contradicted(ledger.verdict)) return contradiction_text(result);
+  if (ledger.verdict == LedgerVerdict::few_places) return few_places_text(ledger);
+  const std::string places = places_text(ledger);
+  if (ledger.verdict == LedgerVerdict::helps) {
+    return places + " The correction probably helps; by how much is not known.";
   }
-  return "";
+  return places + " Whether the correction helps is not shown: " +
+         (ledger.verdict == LedgerVerdict::little_covered
+              ? "at least 30 % would be needed, from closures at other places."
+              : "the others do not predict a place clearly better than the odometry does.");
 }
 
 const char* judgement(const LoopsResult& result, std::size_t rank) {
