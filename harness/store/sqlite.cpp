@@ -9,13 +9,13 @@
 namespace loopbench::harness {
 namespace {
 
-std::string_view bytes_of(sqlite3_value* value) {
+[[gnu::always_inline]] inline std::string_view bytes_of(sqlite3_value* value) {
   const auto* bytes = static_cast<const char*>(sqlite3_value_blob(value));
   const auto size = static_cast<std::size_t>(sqlite3_value_bytes(value));
   return bytes == nullptr ? std::string_view{} : std::string_view(bytes, size);
 }
 
-void add_value(RowHash& row, sqlite3_value* value) {
+[[gnu::always_inline]] inline void add_value(RowHash& row, sqlite3_value* value) {
   switch (sqlite3_value_type(value)) {
     case SQLITE_INTEGER:
       return row.add(sqlite3_value_int64(value));
@@ -48,6 +48,8 @@ void visit_row(sqlite3_context* context, int count, sqlite3_value** values) {
 }
 
 }  // namespace
+
+void RowHash::grow(std::size_t count) { bytes_.resize(2 * (size_ + count)); }
 
 std::int64_t RowValues::integer(int column) const { return sqlite3_value_int64(values[column]); }
 

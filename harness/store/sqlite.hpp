@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "datasets/bags/sqlite_file.hpp"
@@ -37,13 +36,13 @@ inline constexpr std::string_view kMemoryPrefix = "file:/loopbench-memory-";
 class RowHash {
  public:
   template <std::integral Integer>
-  void add(Integer value) {
+  [[gnu::always_inline]] void add(Integer value) {
     add_bytes('i', static_cast<std::int64_t>(value));
   }
-  void add(double value) {
+  [[gnu::always_inline]] void add(double value) {
     std::isnan(value) ? add_null() : add_bytes('r', value + 0.0);  // SQLite stores -0.0 as 0.0
   }
-  void add(std::string_view bytes) {
+  [[gnu::always_inline]] void add(std::string_view bytes) {
     add_bytes('t', bytes.size());
     if (!bytes.empty()) std::memcpy(more(bytes.size()), bytes.data(), bytes.size());
   }
@@ -57,17 +56,21 @@ class RowHash {
 
  private:
   template <class Value>
-  void add_bytes(char type, Value value) {
+  [[gnu::always_inline]] void add_bytes(char type, Value value) {
     char* const at = more(1 + sizeof value);
     *at = type;
     std::memcpy(at + 1, &value, sizeof value);
   }
 
-  /// Room at the end. Millions of rows are hashed when a store is read.
-  char* more(std::size_t count) {
-    if (size_ + count > bytes_.size()) bytes_.resize(2 * (size_ + count));
-    return bytes_.data() + std::exchange(size_, size_ + count);
+  /// Room at the end. Inlined in every build, as are the functions that use it: reading a store
+  /// hashes millions of rows.
+  [[gnu::always_inline]] char* more(std::size_t count) {
+    if (size_ + count > bytes_.size()) grow(count);
+    char* const out = bytes_.data() + size_;
+    size_ += count;
+    return out;
   }
+  void grow(std::size_t count);
 
   std::vector<char> bytes_;
   std::size_t size_ = 0;
