@@ -169,7 +169,8 @@ TEST(Doctor, PrintsWhatARepairChanges) {
     return {p.rotation, {p.translation.y(), p.translation.x(), p.translation.z()}};
   });
   const InputFinding found = only_finding(truth(), exchanged, Fault::mirrored);
-  EXPECT_THAT(found.evidence, HasSubstr("taking y,x,z as x,y,z in the positions of the estimate: "));
+  EXPECT_THAT(found.evidence,
+              HasSubstr("taking y,x,z as x,y,z in the positions of the estimate: "));
   EXPECT_THAT(found.evidence, HasSubstr(" -> "));
 }
 
