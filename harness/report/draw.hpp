@@ -15,7 +15,7 @@ namespace loopbench::harness {
 
 inline constexpr std::array kFigureFormats{"svg", "pdf", "png", "pgf"};
 
-/// Options of `plot`, `eval --plot` and `traj plot`; without a value those of loopbench.draw.
+/// Options of `plot` and `traj plot`; without a value those of loopbench.draw.
 struct FigureOptions {
   std::vector<std::string> style;      ///< style sheets of matplotlib, files or names
   std::vector<std::string> labels;     ///< names of the estimates

@@ -81,7 +81,7 @@ std::string title_of(const std::vector<std::string>& sequences,
 std::string thinned_html(const ReportContent& content, std::size_t bytes) {
   // As text, because the scores are most of a large report and need not be written again.
   const std::string data =
-      data_text("plane", content.plane) + "," + data_text("scores", scores_json(content)) + "," +
+      data_text("scores", scores_json(content)) + "," +
       data_text("comparisons", nlohmann::json::parse(json(content.comparisons, -1))) + ",";
   // Content-Security-Policy: the page runs its own scripts only and loads nothing. No text of the
   // sweep can contain the nonce, a hash of all of them.

@@ -16,7 +16,6 @@ inline constexpr std::size_t kReportBytes = 9'000'000;  ///< default size limit
 
 struct ReportContent {
   std::filesystem::path store;
-  std::string plane;  ///< of maps: xy, xz or yz; empty: of the largest extent
   std::map<std::string, std::string> run;
   std::map<std::string, std::string> provenance;
   std::map<std::string, std::vector<InputFile>> inputs;

@@ -10,7 +10,6 @@
     label: raw.scores.oracle[m] ? name + " (oracle)" : name,
   }));
   R.baseline = R.methods.find((m) => m.name === raw.scores.baseline) || null;
-  R.defaultPlane = raw.plane;
 
   R.unpack = (packed) => {
     const bytes = atob(packed.words);

@@ -31,7 +31,7 @@
   const shown = R.scores.default_methods;
   const best = shown.find((m) => !R.baseline || m !== R.baseline.place);
   const defaultState = {
-    sequence: 0, repeat: 0, kind, statistic: 0, abscissa: "s", plane: R.defaultPlane, shown: new Set(shown),
+    sequence: 0, repeat: 0, kind, statistic: 0, abscissa: "s", plane: "", shown: new Set(shown),
     before: R.baseline ? R.baseline.place : 0, after: best === undefined ? 0 : best,
   };
 
