@@ -116,6 +116,8 @@ std::string Database::columns_of(const std::string& table) {
 }
 
 void Database::for_each_row(const std::string& table,
+                            std::int64_t first,
+                            std::int64_t last,
                             const std::function<void(const RowValues&)>& visit) {
   const std::string columns = columns_of(table);
   void* const passed = const_cast<std::function<void(const RowValues&)>*>(&visit);
@@ -130,7 +132,9 @@ void Database::for_each_row(const std::string& table,
                                               nullptr);
   if (code != SQLITE_OK) fail("cannot be read");
   // The function returns NULL, so that no row is selected.
-  prepare("SELECT 1 FROM " + table + " WHERE visit_row(" + columns + ")").run();
+  prepare("SELECT 1 FROM " + table + " WHERE cell BETWEEN ? AND ? AND visit_row(" + columns + ")")
+      .bind(first, last)
+      .run();
 }
 
 void Database::fail(const std::string& doing) const {

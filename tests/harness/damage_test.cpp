@@ -5,7 +5,9 @@
 #include "harness/store/merge.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/stored_cells.hpp"
+#include "tests/studies/synthetic_store.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/compared_sweep.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::damage_test {
@@ -212,6 +214,30 @@ TEST_F(Damage, AReaderSeesOneStateWhileASweepWrites) {
   require_intact(reader);
   EXPECT_EQ(read_intact_cells(reader).size(), 2u);
   EXPECT_EQ(read_cells(file_).size(), 4u);
+}
+
+/// Enough cells for several threads.
+TEST_F(Damage, IsFoundInAnyPartOfALargeStore) {
+  std::vector<Record> records;
+  for (int i = 0; i < 2500; ++i) {
+    Record& r = records.emplace_back(compared_sweep::ate("m" + std::to_string(i % 5), 1.0));
+    r.cell.edit().position = i;
+    r.cell.edit().sequence = "sequence " + std::to_string(i / 5);
+  }
+  synthetic::write_store(records, folder_.path());
+  const std::filesystem::path file = folder_.path() / "results.sqlite";
+  for (const char* const cell : {"1", "1251", "2500"}) {
+    const std::string where = std::string(" WHERE cell = ") + cell;
+    Database(file, Database::Mode::read).execute("PRAGMA journal_mode = WAL");
+    Database before = open_store(file);
+    before.integer("SELECT count(*) FROM cell");  // begins to read
+    Database(file, Database::Mode::read).execute("UPDATE score_value SET rmse = 2" + where);
+    EXPECT_EQ(read_intact_cells(before).size(), 2500u) << "written after it began to read";
+    Database after = open_store(file);
+    EXPECT_THROW(read_intact_cells(after), InputError) << cell;
+    Database(file, Database::Mode::read).execute("UPDATE score_value SET rmse = 1" + where);
+  }
+  EXPECT_EQ(read_cells(file).size(), 2500u);
 }
 
 TEST_F(Damage, AnotherToolMayPackItButNotExtendIt) {
