@@ -125,7 +125,7 @@ class Terminal(unittest.TestCase):
         piped = self.call(line, 0)
         self.assertIn("\n| a.txt ", piped)
         self.assertIn(" (-94 %). One recording; a test needs 6.\n", piped)
-        self.assertIn("\nate, keyframes, evo: a 12.7 m, b 11",
+        self.assertIn("ate, keyframes, evo: a 12.7 m, b 11",
                       self.call(line + " --protocol evo,tum", 80, TERM="dumb"))
 
 
