@@ -170,13 +170,16 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   const Chain chain = chain_of(problem);
   if (auto found = remove_placeholders(closures, chain)) out.push_back(*found);
   const std::vector<LoopPaths> loops = loop_paths(closures, chain);
-  if (auto repair = find_closure_repair(loops, chain)) {
+  auto repair = find_closure_repair(loops, chain);
+  // Over odometry with scales, rotations alone are compared: half as much evidence.
+  if (repair && loops.size() >= (chain.has_scale ? 2 * kFewestLoops : kFewestLoops)) {
     out.push_back(std::move(*repair));
     return out;
   }
   std::vector<CheckedClosure> found = contradicted_closures(loops, chain);
   std::optional<InputFinding> information;
-  if (3 * found.size() < loops.size()) {  // more false closures would show no information
+  // More false closures would show no information; nor do closures that a convention may explain.
+  if (!repair && 3 * found.size() < loops.size()) {
     std::vector<const LoopPaths*> others;
     for (const LoopPaths& each : loops) {
       if (std::ranges::count(found, &each, &CheckedClosure::paths) == 0) others.push_back(&each);

@@ -59,8 +59,7 @@ std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& lo
   constexpr double kHalved = 0.5;       // chi-squared, if nearly all closures agree
   constexpr double kRefuted = 4.0;      // chi-squared that the stated noise does not explain
   constexpr double kClearRatio = 0.03;  // if the stated noise is so large that it explains all
-  // Over odometry with scales, rotations alone are compared: half as much evidence.
-  if (loops.size() < (chain.has_scale ? 2 * kFewestLoops : kFewestLoops)) return std::nullopt;
+  if (loops.size() < kFewestLoops) return std::nullopt;
   std::vector<const LoopPaths*> chosen, tested;
   // One half proposes, the other decides.
   const bool has_halves = loops.size() >= 2 * kFewestLoops;

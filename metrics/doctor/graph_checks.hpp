@@ -15,8 +15,7 @@ namespace loopbench::metrics {
 /// and other closures predict them better: chosen by every other closure, it has to reduce the
 /// median chi-squared of the remaining ones (of all, if there are less than six). Either the stated
 /// noise does not explain it as read, or significantly more closures agree with others afterwards.
-/// nullopt if there is none, and for one or two closures (of graphs with scales, five).
-/// O(closures).
+/// nullopt if there is none, and for one or two closures. O(closures).
 std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& loops,
                                                 const Chain& chain);
 
@@ -27,10 +26,11 @@ std::optional<InputFinding> check_loop_stamps(const std::vector<double>& loops,
 
 /// Compares closures with the odometry, without a reference:
 /// - identities that were not measured;
-/// - direction and conventions, see find_closure_repair();
+/// - direction and conventions, see find_closure_repair(), from six closures in graphs with scales;
 /// - gaps of closures that the odometry or most other closures contradict;
 /// - information, by the median chi-squared of the gaps (above 100 or below 10^-4), without the
-///   closures found before, and only if these are less than a third.
+///   closures found before, and only if these are less than a third and no convention explains
+///   them.
 /// Nothing if the odometry is no chain. O(closures^2 + keyframes).
 std::vector<InputFinding> check_closures(const Problem& problem);
 
