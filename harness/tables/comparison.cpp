@@ -31,8 +31,8 @@ Json number_or_null(const std::optional<double>& value) { return value ? Json(*v
 /// Changes that differ by less are printed as one.
 constexpr double kPoint = 1.0;  // [%]
 
-constexpr std::size_t kWidest = 100;  // [columns] of a line
-constexpr std::size_t kNoteWidth = kWidest - 2;
+constexpr std::size_t kLineWidth = 100;  // [columns] of a line
+constexpr std::size_t kNoteWidth = kLineWidth - 2;
 
 std::string optional_text(const std::optional<Change>& change, double narrow) {
   return change ? text(*change, narrow) : "-";
@@ -50,7 +50,7 @@ void drop_last_sequences(Table& table) {
     return out;
   };
   std::size_t dropped = 0;
-  for (; line_width() > kWidest && table.headings.size() > 3; ++dropped) {
+  for (; line_width() > kLineWidth && table.headings.size() > 3; ++dropped) {
     table.headings.pop_back();
     for (auto& line : table.lines) line.pop_back();
   }
