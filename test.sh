@@ -20,7 +20,7 @@ lint() {
   install_missing "${lint_packages[@]}"
   shellcheck -x ./*.sh cmake/*.sh cmake/package/*.sh datasets/*.sh results/*.sh tests/*.sh tests/*/*.sh .ci/*
   find datasets methods metrics harness include results tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
-  cmake --preset lint -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
+  cmake --preset lint -DLOOPBENCH_BUILD_TESTS=ON -DLOOPBENCH_TEST_ALL=ON >/dev/null
   # Long ones first, so that no processor waits at the end.
   find build/lint -path '*/Unity/*.cxx' -not -regex '.*/tests/\(benchmarks\|fuzz\|scale\|studies\)/.*' -printf '%s %p\n' |
     sort -rn | cut -d ' ' -f 2 |
