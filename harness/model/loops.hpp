@@ -27,7 +27,7 @@ double shown_stamp(double stamp);
 /// "145 -> 1590": the keyframes of a closure, the earlier one first.
 std::string closure_name(const Problem& problem, std::size_t closure);
 
-/// Three digits for people, without an exponent: 2470, 12.4, 0.031.
+/// For people: three digits or more and no exponent, at most three decimals: 2467, 12.4, 0.031.
 std::string plain_number(double value);
 
 /// One to three sentences: whether the correction probably helps, or which closure contradicts the
