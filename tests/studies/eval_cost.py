@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Processor time and memory of `loopbench eval` for seven motions, over `traj info` of both files.
 
-Usage: eval_cost.py LOOPBENCH [POSES...]   (default 10000 100000 1000000)
+Usage: eval_cost.py LOOPBENCH [--evo FOLDER] [POSES...]   (default 10000 100000 1000000)
 
 Prints a table in Markdown. Processor time: user and system, median of five, of both commands in turns. Memory: the
-largest resident size. Both files have 10 Hz, the estimate noise of 1 cm.
+largest resident size. Both files have 10 Hz, the estimate noise of 1 cm. With the sources of evo, also that of its
+`evo_ape tum -a`, once: at 1000000 poses it takes about 20 minutes.
 """
 
 import math
@@ -51,18 +52,25 @@ def write_pair(name, poses):
 
 
 def cost_of(*command):
-    """Processor time [s] and largest resident size [MB]."""
+    """Processor time [s], largest resident size [MB] and whether it succeeded."""
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    used = os.wait4(process.pid, 0)[2]
-    process.returncode = 0
-    return used.ru_utime + used.ru_stime, used.ru_maxrss * 1.024e-3
+    _, process.returncode, used = os.wait4(process.pid, 0)
+    return used.ru_utime + used.ru_stime, used.ru_maxrss * 1.024e-3, process.returncode == 0
+
+
+def cost_of_evo(folder):
+    start = f"import sys; sys.path.insert(0, {folder!r}); from evo.cli.entry_points import ape; ape()"
+    seconds, _, succeeds = cost_of(sys.executable, "-c", start, "tum", "reference.txt", "estimate.txt", "-a")
+    return f"{seconds:.2f}" + ("" if succeeds else " (fails)")
 
 
 def main():
     loopbench = os.path.abspath(sys.argv[1])
-    sizes = [int(each) for each in sys.argv[2:]] or [10_000, 100_000, 1_000_000]
-    print("| poses | motion | reading both [s] | eval [s] | ratio | memory [MB] |")
-    print("| ---: | --- | ---: | ---: | ---: | ---: |")
+    arguments = sys.argv[2:]
+    evo = os.path.abspath(arguments[1]) if arguments[:1] == ["--evo"] else None
+    sizes = [int(each) for each in arguments[2 if evo else 0:]] or [10_000, 100_000, 1_000_000]
+    print("| poses | motion | reading both [s] | eval [s] | ratio | memory [MB] |" + (" evo [s] |" if evo else ""))
+    print("| ---: | --- | ---: | ---: | ---: | ---: |" + (" ---: |" if evo else ""))
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         for poses in sizes:
@@ -72,9 +80,10 @@ def main():
                 for _ in range(RUNS):
                     reading.append(cost_of(loopbench, "traj", "info", "reference.txt", "estimate.txt")[0])
                     evaluating.append(cost_of(loopbench, "eval", "reference.txt", "estimate.txt"))
-                below, above = statistics.median(reading), statistics.median(cost for cost, _ in evaluating)
-                memory = max(size for _, size in evaluating)
-                print(f"| {poses} | {name} | {below:.3f} | {above:.3f} | {above / below:.2f} | {memory:.0f} |",
+                below, above = statistics.median(reading), statistics.median(cost for cost, _, _ in evaluating)
+                memory = max(size for _, size, _ in evaluating)
+                beside = f" {cost_of_evo(evo)} |" if evo else ""
+                print(f"| {poses} | {name} | {below:.3f} | {above:.3f} | {above / below:.2f} | {memory:.0f} |{beside}",
                       flush=True)
 
 
