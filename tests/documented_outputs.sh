@@ -13,11 +13,11 @@ ln -s "$root/configs" "$work/configs"
 export LOOPBENCH_NAME=./run.sh
 failures=0 checked=0 skipped=0
 
-# Without spaces, the dashes of rules, and times: "37 ms" and the last column of tables named "time [ms]".
+# Without spaces, the dashes of rules, and times: "37 ms" and the last column of tables named "cpu [ms]".
 plain() {
   awk '{ gsub(/[ \t]+/, " "); sub(/^ /, ""); sub(/ $/, ""); gsub(/-+:?/, "-"); gsub(/[0-9.]+ ms/, "_ ms")
     if ($0 !~ /^\|/) is_table = 0
-    else if (!is_table) { is_table = 1; has_time = $0 ~ /\| time \[ms\] \|$/ }
+    else if (!is_table) { is_table = 1; has_time = $0 ~ /\| cpu \[ms\] \|$/ }
     if (is_table && has_time) sub(/[^|]*\|$/, "")
     print }'
 }

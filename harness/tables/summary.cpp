@@ -62,7 +62,8 @@ std::vector<std::string> reasons(const std::vector<Record>& records) {
   return out;
 }
 
-/// The leading score in translation and rotation, the first relative one, and the times.
+/// The leading score in translation and rotation, the first relative one, and the CPU times; times
+/// by the clock if a CPU time is unknown.
 std::vector<Record> shown(const std::vector<Record>& records,
                           const std::vector<Record>& candidates,
                           const Record& lead) {
@@ -75,13 +76,20 @@ std::vector<Record> shown(const std::vector<Record>& records,
     const bool is_relative = relative != candidates.end() && r.kind == relative->kind;
     if (!r.has_score() || r.kind->short_name() == name || is_relative) out.push_back(r);
   }
-  for (Record r : records) {
-    const bool is_time = r.status == Status::ok && r.kind->metric == "time" &&
-                         r.kind->times == lead.kind->times &&
-                         r.kind->protocol == lead.kind->protocol;
-    if (!is_time) continue;
-    if (r.cell->cpu_seconds && !r.cell->is_stated()) r.statistics.rmse = 1e3 * *r.cell->cpu_seconds;
+  const auto is_time = [&](const Record& r) {
+    return r.status == Status::ok && r.kind->metric == "time" &&
+           r.kind->times == lead.kind->times && r.kind->protocol == lead.kind->protocol;
+  };
+  const bool has_cpu = std::ranges::all_of(
+      records, [&](const Record& r) { return !is_time(r) || r.cell->cpu_seconds.has_value(); });
+  Shared<ScoreKind> cpu;
+  for (const Record& r : records) {
+    if (!is_time(r)) continue;
     out.push_back(r);
+    if (!has_cpu) continue;
+    if (cpu->label.empty()) (cpu = r.kind).edit().label = "cpu";
+    out.back().kind = cpu;
+    if (!r.cell->is_stated()) out.back().statistics.rmse = 1e3 * *r.cell->cpu_seconds;
   }
   return out;
 }
