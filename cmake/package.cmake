@@ -27,8 +27,8 @@ install(FILES ${pages}/copyright ${pages}/changelog.gz README.md CITATION.cff CO
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/loopbench)
 # All that the README and the pages of the parts and the results link to, in its folders, so that the links work.
 file(GLOB documents RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
-  CONTRIBUTING.md */README.md methods/*.md harness/python/*.md results/*/*.md results/paper/*.svg results/paper/*.csv
-  results/methods/*.svg results/quickstart/report.*)
+  CONTRIBUTING.md */*.md harness/python/*.md results/*/*.md results/*/*.csv results/paper/*.svg results/methods/*.svg
+  results/quickstart/report.*)
 foreach(document IN LISTS documents)
   get_filename_component(folder ${document} DIRECTORY)
   install(FILES ${document} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/loopbench/${folder}
