@@ -18,12 +18,12 @@ from pages import with_parts  # noqa: E402
 
 def article_pages(configs, out, readme=""):
     """Pages on the article by path below `out`, where their figures are written, and the front page
-    with its tables."""
+    with its counts."""
     from article import judge_complete, judge_curves, judge_segments  # noqa: F401  registers judges
     from article.cells import Results
     from article.figures import write_figures
-    from article.judge_tables import front_table, paper_tables
-    from article.statements import ARTICLE, counts, items, judged_sections, ledger
+    from article.judge_tables import error_table, paper_tables
+    from article.statements import ARTICLE, counts, items, judged_sections, ledger, totals
 
     results = Results([cell for config in configs for cell in config.cells])
     sections = judged_sections(results)
@@ -32,8 +32,9 @@ def article_pages(configs, out, readme=""):
                       for k in sorted(captions))
     own = [("Our own readings, not of the article", list(items(ARTICLE["own_readings"], results)))]
     pages = {"paper/tables.csv": paper_tables(results), "paper/figures.md": ARTICLE["figures"]["page"] + figures,
-             "paper/ledger.csv": ledger(sections + own)}
-    return pages, with_parts(readme, {"counts": counts(sections), "errors": front_table(results)})
+             "paper/errors.csv": error_table(results), "paper/ledger.csv": ledger(sections + own),
+             "paper/counts.csv": counts(sections)}
+    return pages, with_parts(readme, {"totals": totals(sections)})
 
 
 def main():

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import yaml
 
-from article.verdicts import CANNOT_BE_JUDGED, GROUPS, csv_text, percent_change, table
+from article.verdicts import CANNOT_BE_JUDGED, GROUPS, csv_text, percent_change
 
 ARTICLE = yaml.safe_load(Path(__file__).with_name("article.yaml").read_text(encoding="utf-8"))
 SEQUENCES = {entry["sequence"]: entry for entry in ARTICLE["sequences"]}
@@ -97,8 +97,17 @@ def ledger(sections):
     return csv_text(("statements on", "where", "the article", "ours, closed run", "all runs", "verdict"), rows)
 
 
+def _numbers(rows):
+    """Statements per group of verdicts."""
+    return [sum(row.verdict in group for row in rows) for group in GROUPS.values()]
+
+
 def counts(sections):
-    """Statements per section and group of verdicts, for the front page."""
-    numbers = [(title, *(str(sum(r.verdict in g for r in rows)) for g in GROUPS.values()))
-               for title, rows in sections]
-    return table(("statements on", *GROUPS), ("---", *["---:"] * len(GROUPS)), *numbers)
+    """Statements per section and group of verdicts as CSV."""
+    return csv_text(("statements on", *GROUPS), [(title, *_numbers(rows)) for title, rows in sections])
+
+
+def totals(sections):
+    """A sentence with the numbers of all statements per group of verdicts."""
+    found = _numbers([row for _, rows in sections for row in rows])
+    return ARTICLE["totals"].format(sum(found), *found)
