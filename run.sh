@@ -20,7 +20,11 @@ build_program() {
     echo "loopbench: building; the first time takes about 4 minutes on two cores" >&2
     cmake --build "$build" --target loopbench >&2
   else
-    quietly cmake --build "$build" --target loopbench || exit 3
+    (sleep 5 &>/dev/null && echo "loopbench: building again, because sources or packages changed" >&2) &
+    local note=$! code=0
+    quietly cmake --build "$build" --target loopbench || code=3
+    kill "$note" 2>/dev/null || true
+    ((code == 0)) || exit "$code"
   fi
 }
 
