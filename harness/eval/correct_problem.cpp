@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "datasets/core/closure_places.hpp"
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/eval/correct.hpp"
@@ -90,12 +91,14 @@ Correction correct(Problem problem,
   check_covariances(out.report.covariances, out.keyframes.size());
   out.output = curve->sample(at);
   check(out.output, choice.label);
-  out.before = residuals(out.problem, out.problem.keyframes);
-  out.after = residuals(out.problem, out.keyframes);
+  const Problem kept =
+      without_closures(out.problem, out.report.rejected.value_or(std::vector<std::size_t>{}));
+  out.before = residuals(kept, out.problem.keyframes);
+  out.after = residuals(kept, out.keyframes);
   out.rejected = rejected_closures(out);
   // Of the solver's start, not of the input.
   std::erase_if(out.report.counts, [](const auto& c) { return c.name.ends_with("chi2_before"); });
-  for (std::string& note : closure_notes(out.problem)) out.report.notes.push_back(std::move(note));
+  for (std::string& note : closure_notes(kept)) out.report.notes.push_back(std::move(note));
   return out;
 }
 

@@ -69,7 +69,9 @@ std::string text(const Correction& c) {
   out += fmt::format(", {:.1f} ms\n\n", 1e3 * c.seconds);
   out += rejected_text(c);
   if (c.before && c.after) {
-    out += fmt::format("{:<28}{:>14}{:>14}\n", "", "before", "after");
+    const bool has_rejected = c.report.rejected && !c.report.rejected->empty();
+    const char* const which = has_rejected ? "without rejected closures" : "";
+    out += fmt::format("{:<28}{:>14}{:>14}\n", which, "before", "after");
     for (std::size_t i = 0; i < c.before->size(); ++i) {
       const auto& [key, title, before] = (*c.before)[i];
       out += fmt::format(
