@@ -13,9 +13,11 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <ctime>
 #include <limits>
 #include <set>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "harness/base/system_file.hpp"
@@ -147,16 +149,23 @@ TreeUsage usage_of(const std::vector<pid_t>& processes,
   return out;
 }
 
-/// The fields utime, stime, cutime and cstime, 12 to 15 after the name in parentheses, of the text
-/// of /proc/PROCESS/stat [s].
-double cpu_seconds_in(const std::string& stat) {
+/// CPU time of a process and of the children that it waited for [s]. That of the children has the
+/// resolution of the fields of /proc/PROCESS/stat, usually 10 ms; so has its own if it has no
+/// clock.
+double cpu_seconds_of(const std::string& process) {
+  const std::string stat = read_system_file("/proc/" + process + "/stat");
   std::istringstream fields(stat.substr(std::min(stat.rfind(')') + 1, stat.size())));
   std::string skipped;
   for (int i = 0; i < 11; ++i) fields >> skipped;
-  double ticks = 0.0;
-  double field = 0.0;
-  for (int i = 0; i < 4 && fields >> field; ++i) ticks += field;
-  return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+  double user = 0.0, system = 0.0, children_user = 0.0, children_system = 0.0;
+  fields >> user >> system >> children_user >> children_system;
+  const auto second = static_cast<double>(sysconf(_SC_CLK_TCK));
+  double own = (user + system) / second;
+  clockid_t clock{};
+  timespec used{};
+  if (clock_getcpuclockid(std::stoi(process), &clock) == 0 && clock_gettime(clock, &used) == 0)
+    own = static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  return own + (children_user + children_system) / second;
 }
 
 }  // namespace
@@ -186,7 +195,7 @@ std::int64_t tree_memory(pid_t process) {
 TreeCost tree_cost(pid_t process) {
   TreeCost out;
   for_each_in_tree({process}, [&](const std::string& each) {
-    out.cpu_seconds += cpu_seconds_in(read_system_file("/proc/" + each + "/stat"));
+    out.cpu_seconds += cpu_seconds_of(each);
     const std::string status = read_system_file("/proc/" + each + "/status");
     out.peak_memory = std::max(out.peak_memory, memory_in(status, "VmHWM:").value_or(0));
     return true;
