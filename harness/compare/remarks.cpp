@@ -95,6 +95,7 @@ Lines remarks(const Comparison& c) {
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
       c.options.baseline));
+  if (!c.can_show) return out;
   out.push_back(fmt::format("p: {} against {}, corrected for {}",
                             c.has_strata ? "rank sums of runs within sequences"
                             : c.is_ratio ? "signed-rank test of log ratios"

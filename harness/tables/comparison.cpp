@@ -170,7 +170,8 @@ Table table_view(const Comparison& c) {
     const VerdictGroup group = group_of({&m}, {}, c.options.baseline);
     const bool is_baseline = m.method == c.options.baseline;
     const auto unless_baseline = [&](const std::string& text) { return is_baseline ? "" : text; };
-    out.lines.push_back({{(m.is_worse ? "> " : "= ") + m.method, c.is_best && !m.is_worse},
+    const char* const place = !c.can_show ? "" : m.is_worse ? "> " : "= ";
+    out.lines.push_back({{place + m.method, c.is_best && !m.is_worse},
                          {median_text(c, m, decimals(largest))},
                          {unless_baseline(optional_text(group.all, 0.0))},
                          {unless_baseline(optional_text(group.interval, 0.0))},
