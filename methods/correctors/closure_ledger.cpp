@@ -26,7 +26,9 @@ using Index = Eigen::Index;
 ClosureError closure_error(const Twist& residual, const Matrix6& covariance, bool planar) {
   constexpr double kDegrees = 180.0 / 3.14159265358979323846;
   const double chi2 = residual.dot(covariance.llt().solve(residual));
-  return {residual.head<3>().norm(), kDegrees * residual.tail<3>().norm(), chi2 / (planar ? 3 : 6)};
+  // The rotation by a linear residual can exceed half a turn.
+  const double degrees = std::abs(std::remainder(kDegrees * residual.tail<3>().norm(), 360.0));
+  return {residual.head<3>().norm(), degrees, chi2 / (planar ? 3 : 6)};
 }
 
 /// The rows and columns of some closures in a vector or matrix over all.
