@@ -210,7 +210,7 @@ std::string legend_of(const Comparison& c, const Verdict& v) {
     out += "; other ranges: methods of a group differ";
   }
   if (v.groups.size() > 1) out += "; =: shares first place, >: significantly worse";
-  if (c.kind.times == "dense") out += "; dense: between keyframes, too";
+  if (c.kind.times == "dense") out += "; dense: also between keyframes";
   if (c.has_strata) {
     out += "; runs of a sequence are independent (rank sums; compare --paired pairs equal names)";
   } else if (c.sequences < c.groups) {

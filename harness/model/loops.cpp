@@ -44,7 +44,8 @@ std::string places_text(const ClosureLedger& ledger) {
 
 std::string few_places_text(const ClosureLedger& ledger) {
   std::string out = fmt::format(
-      "{} at {}. Whether the correction helps is not shown: closures at three or more places are "
+      "{} at {}. Whether the correction helps cannot be shown: closures at three or more places "
+      "are "
       "needed to check each by the others.",
       counted(ledger.rows.size(), "closure"),
       counted(ledger.places, "place"));
@@ -74,10 +75,10 @@ std::string contradiction_text(const LoopsResult& result) {
            "use the correction.";
   }
   const std::string out = fmt::format(
-      "{} contradict each other: most suspicious is {}. Do not use {}.",
+      "{} contradict each other: most suspicious is {}. Do not {}.",
       result.is_kept ? "The closures that were kept" : "Closures",
       suspects,
-      result.is_kept ? "this correction" : "the correction by all closures; try pose_graph_pcm");
+      result.is_kept ? "use this correction" : "correct with all closures; try pose_graph_pcm");
   if (ledger.verdict == LedgerVerdict::contradiction) return out;
   return out +
          " Most closures contradict the odometry, too: either the stated covariances are too small "
@@ -109,7 +110,7 @@ std::string verdict_text(const LoopsResult& result) {
   if (ledger.verdict == LedgerVerdict::helps) {
     return places + " The correction probably helps; by how much is not known.";
   }
-  return places + " Whether the correction helps is not shown: " +
+  return places + " Whether the correction helps cannot be shown: " +
          (ledger.verdict == LedgerVerdict::little_covered
               ? "at least 30 % would be needed, from closures at other places."
               : "the others do not predict a place clearly better than the odometry does.");
