@@ -1,60 +1,33 @@
 #!/usr/bin/env python3
-"""Builds the recipes of CONTRIBUTING.md and uses their results: recipes_test.py PAGE SOURCE BUILD.
+"""Applies the recipes of CONTRIBUTING.md, builds the program and uses their results: recipes_test.py SOURCE BUILD.
 
-The blocks are applied to copies of the files that they change. The copies are compiled and linked before the libraries
-of the build, so that nothing else has to be compiled again.
+Each patch of tests/recipes is applied to copies of the files that it changes. The copies are compiled and linked before
+the libraries of the build, so that nothing else has to be compiled again.
 """
 import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
-page, source, build = sys.argv[1:]
-PLACE = re.compile(r"^(?:In )?`([\w/]+\.[ch]pp)`(?:, (above|instead of) `(.+)`)?:$")
-
-
-def recipes(text):
-    """Yields (file, "above" or "instead of" or None, anchor, code) of each block with a place."""
-    lines = iter(text.splitlines())
-    place = None
-    for line in lines:
-        place = PLACE.match(line) or (place if line == "" or line.startswith("```") else None)
-        if line.startswith("```") and place:
-            yield *place.groups(), list(iter(lambda: next(lines), "```"))
-            place = None
-
-
-def change(lines, how, anchor, code):
-    """The lines of a file with the code at the line with the anchor, and its includes at the other includes."""
-    at = next((i for i, line in enumerate(lines) if anchor in line), None)
-    if at is None:
-        sys.exit(f"{page}: no line contains {anchor!r}")
-    includes = [line for line in code if line.startswith("#include")]
-    rest = [line for line in code if not line.startswith("#include")]
-    changed = lines[:at] + rest + lines[at + (how == "instead of"):]
-    first = next(i for i, line in enumerate(changed) if line.startswith("#include"))
-    return changed[:first] + includes + changed[first:]
+source, build = (os.path.abspath(folder) for folder in sys.argv[1:])
+recipes = sorted(Path(source, "tests/recipes").glob("*.patch"))
 
 
 def apply_to(copy):
     """Writes the changed files below `copy`; returns their names."""
-    files = {}
-    for name, how, anchor, code in recipes(open(page).read()):
-        if how is None:
-            files[name] = code
-            continue
-        lines = files.get(name) or open(os.path.join(source, name)).read().splitlines()
-        files[name] = change(lines, how, anchor, code)
-    for name, lines in files.items():
-        path = os.path.join(copy, name)
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(path, "w") as out:
-            out.write("\n".join(lines) + "\n")
-    return files
+    text = "".join(recipe.read_text() for recipe in recipes)
+    for name in re.findall(r"^--- a/(.+)", text, re.M):
+        os.makedirs(os.path.join(copy, os.path.dirname(name)), exist_ok=True)
+        shutil.copy(os.path.join(source, name), os.path.join(copy, name))
+    # The names are relative to `copy`, also if a folder above it is a repository.
+    run("git", "apply", *recipes, cwd=copy, env=os.environ | {"GIT_CEILING_DIRECTORIES": os.path.dirname(copy)})
+    return re.findall(r"^\+\+\+ b/(.+)", text, re.M)
 
 
 def compile_flags():
@@ -80,10 +53,10 @@ def link_command(objects, output):
     return words[:first] + objects + ["-Wl,--allow-multiple-definition"] + words[first:]
 
 
-def run(*words):
-    done = subprocess.run(words, capture_output=True, text=True)
+def run(*words, **where):
+    done = subprocess.run(words, capture_output=True, text=True, **where)
     if done.returncode != 0:
-        sys.exit(f"{' '.join(words)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+        sys.exit(f"{' '.join(map(str, words))}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
     return done.stdout
 
 
@@ -92,6 +65,9 @@ def expect(text, part):
         sys.exit(f"expected {part!r} in\n{text}")
 
 
+page = Path(source, "CONTRIBUTING.md").read_text()
+for recipe in recipes:
+    expect(page, f"tests/recipes/{recipe.name}")
 with tempfile.TemporaryDirectory() as copy:
     files = apply_to(copy)
     compiler, flags = compile_flags()
@@ -121,4 +97,4 @@ with tempfile.TemporaryDirectory() as copy:
     rows = run(built, "export", os.path.join(copy, "results"), "--what", "rows", "-o", "-")
     for part in ("half_way", "height_error", "circle", "strict"):
         expect(rows, part)
-    print(f"{len(files)} files of {page}: built and used")
+    print(f"{len(recipes)} recipes, {len(files)} files: built and used")
