@@ -28,7 +28,7 @@ install(FILES ${pages}/copyright ${pages}/changelog.gz README.md CITATION.cff CO
 # All that the README and the pages of the parts and the results link to, in its folders, so that the links work.
 file(GLOB documents RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
   CONTRIBUTING.md */*.md harness/python/*.md results/*/*.md results/*/*.csv results/paper/*.svg results/methods/*.svg
-  results/quickstart/report.*)
+  results/quickstart/report.* tests/plugin/example/* tests/plugin/stranger/half_way.cpp)
 foreach(document IN LISTS documents)
   get_filename_component(folder ${document} DIRECTORY)
   install(FILES ${document} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/loopbench/${folder}
