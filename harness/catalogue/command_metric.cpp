@@ -109,7 +109,7 @@ metrics::Score score_of(const nlohmann::json& entry, int ddof, std::size_t pairs
 
 metrics::MetricEntry command_metric() {
   return metrics::metric<CommandMetricOptions>(
-      kCommand, "any program; see methods/exchange.md", score_here);
+      kCommand, "any program; see metrics/programs.md", score_here);
 }
 
 std::vector<metrics::Score> parse_scores(const std::string& text, int ddof, std::size_t pairs) {

@@ -5,7 +5,7 @@
 ///                                with line i of the other; the estimate is aligned
 ///   evaluation.json              {exchange: 1, pairs, possible, span, scale, reference_length,
 ///                                times, units}
-/// and {result} the JSON file to write, methods/exchange.md lists its keys. With `serve`, the same
+/// and {result} the JSON file to write, metrics/programs.md lists its keys. With `serve`, the same
 /// JSON is the text of a message with kind: metric and the arrays reference and estimate.
 #pragma once
 
