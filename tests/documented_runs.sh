@@ -5,7 +5,8 @@
 # Usage: documented_runs.sh LOOPBENCH ROOT [QUICKSTART], a folder with the results of quickstart.
 set -euo pipefail
 loopbench=$(realpath "$1") root=$(realpath "$2") quickstart=${3:+$(realpath "$3")}
-pages=(README.md datasets/README.md methods/README.md metrics/README.md harness/README.md methods/bring_a_method.md)
+pages=(README.md {datasets,methods,metrics}/README.md metrics/files.md harness/README.md
+  methods/bring_a_method.md)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 example=$root/configs/example
