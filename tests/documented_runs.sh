@@ -5,7 +5,7 @@
 # Usage: documented_runs.sh LOOPBENCH ROOT [QUICKSTART], a folder with the results of quickstart.
 set -euo pipefail
 loopbench=$(realpath "$1") root=$(realpath "$2") quickstart=${3:+$(realpath "$3")}
-pages=(README.md {datasets,methods,metrics}/README.md metrics/files.md harness/README.md
+pages=(README.md {datasets,methods,metrics}/README.md metrics/files.md harness/{README,figures}.md
   methods/bring_a_method.md)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
