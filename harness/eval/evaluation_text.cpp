@@ -190,10 +190,12 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
   spec.value = to_text(first.protocol.rules.statistic);
   Table out = pivot(records, spec).front();
   out.headings[0] = "estimate";
-  out.title = fmt::format("{}, {} against {}{}",
+  const bool is_aligned = first.protocol.rules.align != metrics::Align::none;
+  out.title = fmt::format("{}, {} against {}{}{}",
                           protocol_text(first.protocol),
                           spec.value,
                           first.reference,
+                          is_aligned ? "" : ", not aligned",
                           body_text(first));
   for (std::string& note : grouped(notes)) out.notes.push_back(std::move(note));
   if (detail == Detail::all) {
