@@ -1,20 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <functional>
 
-#include "metrics/doctor/graph_checks.hpp"
 #include "tests/metrics/doctor_pairs.hpp"
 
-namespace loopbench::doctor_closures_test {
+namespace loopbench::test::doctor_closures_test {
 namespace {
-
-using namespace metrics;
-using test::only;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// Two rounds on a circle with closures between them, and drift in the odometry.
 /// `noise_scale`: of errors and stated deviations.
@@ -61,12 +51,6 @@ void add_false_closure(Problem& problem, std::size_t from, std::size_t to, doubl
   Pose pose = true_pose(problem, from, to);
   pose.translation.z() += up;
   problem.closures.push_back({from, to, pose, problem.closures[0].information});
-}
-
-std::vector<Fault::Name> closure_faults(const Problem& problem) {
-  std::vector<Fault::Name> out;
-  for (const InputFinding& finding : check_closures(problem)) out.push_back(finding.fault);
-  return out;
 }
 
 void invert(std::vector<Edge>& edges) {
@@ -138,7 +122,7 @@ TEST(DoctorOfClosures, ConventionsOfTurnedClosures) {
     return closure_faults(problem);
   };
   EXPECT_THAT(changed([](const Pose& p) { return p; }), IsEmpty());
-  EXPECT_THAT(changed(test::misordered), ElementsAre(Fault::closure_convention));
+  EXPECT_THAT(changed(misordered), ElementsAre(Fault::closure_convention));
   EXPECT_THAT(changed([](const Pose& p) {
                 const Pose camera{Rotation(0.5, -0.5, 0.5, -0.5), Vector3::Zero()};
                 return camera.inverse() * p * camera;
@@ -225,4 +209,4 @@ TEST(DoctorOfClosures, GapsThatSmallVariancesExplainAreNoContradictions) {
 }
 
 }  // namespace
-}  // namespace loopbench::doctor_closures_test
+}  // namespace loopbench::test::doctor_closures_test

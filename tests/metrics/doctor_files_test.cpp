@@ -1,22 +1,12 @@
 /// Findings of `doctor` about whole files: stamps, gaps, jumps, content.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "metrics/doctor/diagnose.hpp"
 #include "tests/metrics/doctor_pairs.hpp"
 
-namespace loopbench::doctor_files_test {
+namespace loopbench::test::doctor_files_test {
 namespace {
-
-using namespace metrics;
-using namespace test;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 TEST(Doctor, FilesWithoutCommonTime) {
   Trajectory in_milliseconds = sampled(20), other = sampled(20);
@@ -36,9 +26,8 @@ TEST(Doctor, NamesWhatCannotBeChecked) {
   EXPECT_FALSE(single.has_checked);
   EXPECT_THAT(
       single.unchecked,
-      ElementsAre(testing::HasSubstr("time offset: "),
-                  testing::HasSubstr(
-                      "same recording: poses of the estimate in the reference's time: 1, ")));
+      ElementsAre(HasSubstr("time offset: "),
+                  HasSubstr("same recording: poses of the estimate in the reference's time: 1, ")));
   const Diagnosis good = diagnosis(truth(), sampled(20), "gt.txt", "run.txt");
   EXPECT_TRUE(good.has_checked);
   EXPECT_THAT(good.unchecked, IsEmpty());
@@ -175,4 +164,4 @@ TEST(Doctor, PrintsWhatARepairChanges) {
 }
 
 }  // namespace
-}  // namespace loopbench::doctor_files_test
+}  // namespace loopbench::test::doctor_files_test

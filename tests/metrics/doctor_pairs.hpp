@@ -1,6 +1,7 @@
 /// A simulated pair of trajectories for tests of `doctor`.
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,11 +9,14 @@
 
 #include "datasets/core/trajectory.hpp"
 #include "metrics/doctor/diagnose.hpp"
+#include "metrics/doctor/graph_checks.hpp"
 
 namespace loopbench::test {
 
-using metrics::Fault;
-using metrics::InputFinding;
+using namespace metrics;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 
 /// A path through space with varied speed and rotation about all axes.
 inline Pose at(double t) {
@@ -60,7 +64,7 @@ inline InputFinding only(const std::vector<InputFinding>& found, Fault::Name fau
 inline InputFinding only_finding(const Trajectory& reference,
                                  const Trajectory& estimate,
                                  Fault::Name fault) {
-  return only(metrics::diagnosis(reference, estimate, "reference.txt", "run.txt").findings, fault);
+  return only(diagnosis(reference, estimate, "reference.txt", "run.txt").findings, fault);
 }
 
 /// A quaternion whose components were read in the order z w x y.
@@ -73,11 +77,17 @@ inline Pose conjugated(const Pose& p) { return {p.rotation.conjugate(), p.transl
 inline std::vector<Fault::Name> faults(const Trajectory& reference, const Trajectory& estimate) {
   std::vector<Fault::Name> out;
   for (const InputFinding& finding :
-       metrics::diagnosis(reference, estimate, "reference.txt", "run.txt").findings) {
+       diagnosis(reference, estimate, "reference.txt", "run.txt").findings) {
     EXPECT_GT(finding.confidence, 0.0) << text(finding);
     EXPECT_LE(finding.confidence, 1.0) << text(finding);
     out.push_back(finding.fault);
   }
+  return out;
+}
+
+inline std::vector<Fault::Name> closure_faults(const Problem& problem) {
+  std::vector<Fault::Name> out;
+  for (const InputFinding& finding : check_closures(problem)) out.push_back(finding.fault);
   return out;
 }
 

@@ -1,21 +1,12 @@
 /// Findings of `doctor` about rows that are wrong: repeated, jumping, in another order.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "metrics/doctor/graph_checks.hpp"
 #include "tests/metrics/doctor_pairs.hpp"
 
-namespace loopbench::doctor_rows_test {
+namespace loopbench::test::doctor_rows_test {
 namespace {
-
-using namespace metrics;
-using namespace test;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 TEST(DoctorOfRows, MissingPoses) {
   Trajectory estimate = sampled(20);
@@ -47,7 +38,7 @@ TEST(DoctorOfRows, ATruePauseOfBothIsNoMistake) {
     }
     return out;
   };
-  EXPECT_THAT(faults(paused(truth()), paused(sampled(20))), testing::IsEmpty());
+  EXPECT_THAT(faults(paused(truth()), paused(sampled(20))), IsEmpty());
 }
 
 TEST(DoctorOfRows, OutliersOfTheReference) {
@@ -103,4 +94,4 @@ TEST(DoctorOfLoopStamps, AnotherClock) {
 }
 
 }  // namespace
-}  // namespace loopbench::doctor_rows_test
+}  // namespace loopbench::test::doctor_rows_test

@@ -1,22 +1,13 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "metrics/doctor/diagnose.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "tests/metrics/doctor_pairs.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench::doctor_test {
+namespace loopbench::test::doctor_test {
 namespace {
-
-using namespace metrics;
-using namespace test;
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 TEST(Doctor, FindsNothingInGoodFiles) { EXPECT_THAT(faults(truth(), sampled(20)), IsEmpty()); }
 
@@ -155,9 +146,9 @@ TEST(Doctor, InvertedRotationsOfSmallSize) {
 
 /// Rotations mostly about one axis, whose inverses fit after a constant rotation; heading drifts.
 TEST(Doctor, InvertedRotationsUnderDrift) {
-  const Trajectory reference = test::hand_held_truth(120);
+  const Trajectory reference = hand_held_truth(120);
   const Trajectory estimate =
-      test::drifting(reference, twist({0.004, 0, 0.001}, {0, 0.001, 0.002}), {}).keyframes;
+      drifting(reference, twist({0.004, 0, 0.001}, {0, 0.001, 0.002}), {}).keyframes;
   EXPECT_THAT(faults(reference, estimate), IsEmpty());
   EXPECT_THAT(faults(reference, each(estimate, conjugated)), ElementsAre(Fault::inverted_poses));
   EXPECT_THAT(faults(each(reference, conjugated), estimate), ElementsAre(Fault::inverted_poses));
@@ -243,4 +234,4 @@ TEST(Doctor, LeverArm) {
 }
 
 }  // namespace
-}  // namespace loopbench::doctor_test
+}  // namespace loopbench::test::doctor_test
