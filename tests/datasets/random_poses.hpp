@@ -2,6 +2,7 @@
 #pragma once
 
 #include <random>
+#include <vector>
 
 #include "datasets/core/se3.hpp"
 #include "datasets/core/trajectory.hpp"
@@ -35,6 +36,15 @@ inline Trajectory on_a_line(const std::vector<double>& xs, double period = 1.0) 
   Trajectory out;
   for (std::size_t i = 0; i < xs.size(); ++i) {
     out.push_back({static_cast<double>(i) * period, {Rotation::Identity(), {xs[i], 0.0, 0.0}}});
+  }
+  return out;
+}
+
+/// One pose per second with identity rotation.
+inline Trajectory through(const std::vector<Vector3>& points) {
+  Trajectory out;
+  for (const Vector3& point : points) {
+    out.push_back({static_cast<double>(out.size()), {Rotation::Identity(), point}});
   }
   return out;
 }

@@ -9,17 +9,9 @@
 
 #include "datasets/core/problem.hpp"
 #include "methods/smoothers/manifold/curve.hpp"
+#include "tests/datasets/random_poses.hpp"
 
 namespace loopbench {
-
-/// One pose per second with identity rotation.
-inline Trajectory through(const std::vector<Vector3>& points) {
-  Trajectory out;
-  for (const Vector3& point : points) {
-    out.push_back({static_cast<double>(out.size()), {Rotation::Identity(), point}});
-  }
-  return out;
-}
 
 /// One pose per second along x, so steps equal speeds.
 inline Trajectory with_speeds(const std::vector<double>& speeds) {
@@ -48,11 +40,7 @@ inline Trajectory wandering(std::size_t count, std::uint64_t seed) {
   return out;
 }
 
-inline Problem keyframes_only(Trajectory keyframes) {
-  Problem out;
-  out.keyframes = std::move(keyframes);
-  return out;
-}
+inline Problem keyframes_only(Trajectory keyframes) { return {.keyframes = std::move(keyframes)}; }
 
 /// `count` evenly spaced times from the first to the last stamp, both included.
 inline std::vector<double> times_over(const Trajectory& poses, std::size_t count) {

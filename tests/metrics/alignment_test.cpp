@@ -3,25 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "support.hpp"
+#include "tests/datasets/random_poses.hpp"
 
-namespace loopbench::alignment_test {
-
-using namespace metrics;
-
+namespace loopbench::test::alignment_test {
 namespace {
-
-using test::moved_by;
-using test::random_pose;
-using test::random_walk;
-using test::why;
-
-Trajectory at_points(const std::vector<Vector3>& points) {
-  Trajectory out;
-  for (const Vector3& point : points) {
-    out.push_back({static_cast<double>(out.size()), {Rotation::Identity(), point}});
-  }
-  return out;
-}
 
 double worst(const Trajectory& a, const Trajectory& b) {
   double out = 0.0;
@@ -98,9 +83,9 @@ TEST(Alignment, OfAPlaneIsUnique) {
     points.emplace_back(i, (i * 7) % 5, 0.0);
     lifted.emplace_back(0.0, i, (i * 7) % 5);
   }
-  const Alignment found = align(at_points(points), at_points(lifted), Align::se3);
+  const Alignment found = align(through(points), through(lifted), Align::se3);
   EXPECT_EQ(found.rank, 2);
-  const Trajectory there = moved(found, at_points(lifted));
+  const Trajectory there = moved(found, through(lifted));
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR((there[i].world_from_body.translation - points[i]).norm(), 0.0, 1e-13);
   }
@@ -110,7 +95,7 @@ TEST(Alignment, OfAPlaneIsUnique) {
 TEST(Alignment, RefusesAStraightLine) {
   std::vector<Vector3> points;
   for (int i = 0; i < 50; ++i) points.emplace_back(100.0 + 0.1 * i, 7.0 + 0.3 * i, -0.7 * i);
-  const Trajectory line = at_points(points);
+  const Trajectory line = through(points);
   std::mt19937_64 random(4);
   const Trajectory turned = moved_by(random_pose(random, 10.0, 2.0), 1.0, line);
   const auto text = why<std::runtime_error>([&] { align(line, turned, Align::se3); });
@@ -143,19 +128,19 @@ TEST(Alignment, RefusesAPoint) {
 }
 
 TEST(Alignment, RefusesTooFewPairs) {
-  const Trajectory two = at_points({{0, 0, 0}, {1, 2, 3}});
-  const Trajectory one = at_points({{1, 2, 3}});
+  const Trajectory two = through({{0, 0, 0}, {1, 2, 3}});
+  const Trajectory one = through({{1, 2, 3}});
   EXPECT_THROW(align(two, two, Align::se3), std::runtime_error);
   EXPECT_THROW(align(one, one, Align::sim3), std::runtime_error);
   EXPECT_THROW(align(one, two, Align::none), std::invalid_argument);
   EXPECT_THROW(align({}, {}, Align::none), std::invalid_argument);
-  const Trajectory three = at_points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const Trajectory three = through({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   EXPECT_EQ(align(three, three, Align::se3).rank, 2);
 }
 
 TEST(Alignment, RefusesAMirrorImageWithoutAPreferredAxis) {
   const Trajectory cross =
-      at_points({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});
+      through({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});
   Trajectory mirrored = cross;
   for (auto& [stamp, pose] : mirrored) pose.translation.z() *= -1.0;
   const auto text = why<std::runtime_error>([&] { align(cross, mirrored, Align::se3); });
@@ -179,10 +164,10 @@ TEST(Alignment, PosyawTurnsAboutZOnly) {
 }
 
 TEST(Alignment, PosyawRefusesWhatMovesAlongZOnly) {
-  const Trajectory lift = at_points({{0, 0, 0}, {0, 0, 1}, {0, 0, 3}});
+  const Trajectory lift = through({{0, 0, 0}, {0, 0, 1}, {0, 0, 3}});
   const auto text = why<std::runtime_error>([&] { align(lift, lift, Align::posyaw); });
   EXPECT_NE(text.find("have no common motion normal to z"), std::string::npos) << text;
 }
 
 }  // namespace
-}  // namespace loopbench::alignment_test
+}  // namespace loopbench::test::alignment_test

@@ -4,15 +4,8 @@
 #include "metrics/errors/ate.hpp"
 #include "support.hpp"
 
-namespace loopbench::along_cross_test {
-
-using namespace metrics;
-
+namespace loopbench::test::along_cross_test {
 namespace {
-
-using test::find;
-using test::moved_by;
-using test::why;
 
 /// Two metres along x, then two along y, at 1 m/s.
 Trajectory corner() {
@@ -100,4 +93,4 @@ TEST(PathLength, RefusesAReferenceThatStandsStill) {
 }
 
 }  // namespace
-}  // namespace loopbench::along_cross_test
+}  // namespace loopbench::test::along_cross_test

@@ -7,9 +7,6 @@
 #include "support.hpp"
 
 namespace loopbench::test::association_error_test {
-
-using namespace metrics;
-
 namespace {
 
 /// A circle of radius 50 m at `speed` with `rate` poses per second, the first at `shift`.

@@ -10,14 +10,7 @@
 #include "support.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace loopbench::association_test {
-
-using namespace metrics;
-
-void PrintTo(const IndexPair& pair, std::ostream* out) {
-  *out << pair.reference << "-" << pair.estimate;
-}
-
+namespace loopbench::test::association_test {
 namespace {
 
 using Pairs = std::vector<IndexPair>;
@@ -94,7 +87,7 @@ Stamps random_stamps(std::mt19937_64& random, std::size_t most) {
   return out;
 }
 
-TEST(Association, EvoIsTheLiteralRuleOnRandomStamps) {
+TEST(Association, RulesAreTheLiteralOnesOnRandomStamps) {
   std::mt19937_64 random(1);
   for (int round = 0; round < 3000; ++round) {
     const Stamps reference = random_stamps(random, 40);
@@ -104,16 +97,6 @@ TEST(Association, EvoIsTheLiteralRuleOnRandomStamps) {
     ASSERT_EQ(match_evo(reference, estimate, max_diff, offset),
               literal_evo(reference, estimate, max_diff, offset))
         << "round " << round;
-  }
-}
-
-TEST(Association, OneToOneIsTheLiteralRuleOnRandomStamps) {
-  std::mt19937_64 random(2);
-  for (int round = 0; round < 3000; ++round) {
-    const Stamps reference = random_stamps(random, 40);
-    const Stamps estimate = random_stamps(random, 40);
-    const double max_diff = std::uniform_int_distribution<int>(0, 20)(random) / 64.0;
-    const double offset = std::uniform_int_distribution<int>(-20, 20)(random) / 64.0;
     for (const Limit limit : {Limit::strict, Limit::inclusive}) {
       for (const Crossing crossing : {Crossing::allowed, Crossing::refused}) {
         ASSERT_EQ(match_one_to_one(reference, estimate, max_diff, limit, crossing, offset),
@@ -260,4 +243,4 @@ TEST(Association, EvoPairsBothPosesOfARepeatedStamp) {
 }
 
 }  // namespace
-}  // namespace loopbench::association_test
+}  // namespace loopbench::test::association_test

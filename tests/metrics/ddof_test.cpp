@@ -9,10 +9,7 @@
 #include "support.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench::ddof_test {
-
-using namespace metrics;
-
+namespace loopbench::test::ddof_test {
 namespace {
 
 /// A pose every 20 ms, so that some lie between keyframes.
@@ -69,4 +66,4 @@ TEST(Ddof, OfTheProtocolReachesEveryDistribution) {
 }
 
 }  // namespace
-}  // namespace loopbench::ddof_test
+}  // namespace loopbench::test::ddof_test

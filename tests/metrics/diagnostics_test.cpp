@@ -10,13 +10,8 @@
 #include "metrics/trajectory/position_only.hpp"
 #include "support.hpp"
 
-namespace loopbench::diagnostics_test {
-
-using namespace metrics;
-
+namespace loopbench::test::diagnostics_test {
 namespace {
-
-using test::find;
 
 /// 1 m/s along x for 5 s, 5 s at rest, then along y; 10 Hz.
 Trajectory with_a_stop() {
@@ -157,4 +152,4 @@ TEST(PositionOnly, AnEstimateCanBeSoToo) {
 }
 
 }  // namespace
-}  // namespace loopbench::diagnostics_test
+}  // namespace loopbench::test::diagnostics_test

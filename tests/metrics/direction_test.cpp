@@ -11,13 +11,8 @@
 #include "support.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench::direction_test {
-
-using namespace metrics;
-
+namespace loopbench::test::direction_test {
 namespace {
-
-using test::EvaluatedCell;
 
 std::set<std::string> words(const std::string& text) {
   std::istringstream in(text);
@@ -147,4 +142,4 @@ TEST(Direction, OfEveryMetricIsTestedHere) {
 }
 
 }  // namespace
-}  // namespace loopbench::direction_test
+}  // namespace loopbench::test::direction_test

@@ -6,13 +6,8 @@
 #include "support.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace loopbench::evaluation_test {
-
-using namespace metrics;
-
+namespace loopbench::test::evaluation_test {
 namespace {
-
-using test::why;
 
 /// One pose per stamp at x = stamp.
 Trajectory at(const std::vector<double>& stamps) {
@@ -191,4 +186,4 @@ TEST(Evaluation, SaysThatNoReferenceLiesOnTheCurve) {
 }
 
 }  // namespace
-}  // namespace loopbench::evaluation_test
+}  // namespace loopbench::test::evaluation_test

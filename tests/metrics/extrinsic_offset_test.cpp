@@ -5,14 +5,8 @@
 #include "support.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace loopbench::extrinsic_offset_test {
-
-using namespace metrics;
-
+namespace loopbench::test::extrinsic_offset_test {
 namespace {
-
-using test::find;
-using test::noisy;
 
 Trajectory followed_at(const Pose& body_from_reference, Trajectory poses) {
   for (auto& [stamp, pose] : poses) pose = normalized(pose * body_from_reference);
@@ -152,7 +146,6 @@ TEST(ExtrinsicOffset, IsNotSteadyDrift) {
   }
 }
 
-// Motion around a viewed object resembles a lever arm.
 /// Planar motion does not determine the height; pitch drift once put it 10^4 m below.
 TEST(ExtrinsicOffset, HasNoHeightInAPlane) {
   const Pose pitch = exp_se3(twist(Vector3::Zero(), {0.0, 5e-4, 0.0}));
@@ -171,6 +164,7 @@ TEST(ExtrinsicOffset, HasNoHeightInAPlane) {
   EXPECT_EQ(other_body(*offset, {}), "");
 }
 
+// Motion around a viewed object resembles a lever arm.
 TEST(ExtrinsicOffset, IsNotTheUnitOfLength) {
   std::mt19937_64 random(5);
   for (const double unit : {0.5, 0.9, 1.1, 2.0}) {
@@ -249,4 +243,4 @@ TEST(ExtrinsicOffset, ScoresAreIndifferentToTheWorld) {
 }
 
 }  // namespace
-}  // namespace loopbench::extrinsic_offset_test
+}  // namespace loopbench::test::extrinsic_offset_test

@@ -22,9 +22,6 @@
 #include "support.hpp"
 
 namespace loopbench::test::golden_test {
-
-using namespace metrics;
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -4,14 +4,8 @@
 #include "datasets/core/cubic.hpp"
 #include "support.hpp"
 
-namespace loopbench::interpolation_floor_test {
-
-using namespace metrics;
-
+namespace loopbench::test::interpolation_floor_test {
 namespace {
-
-using test::find;
-using test::why;
 
 TEST(Cubic, ByHand) {
   // Second derivative 0, -3, 0 for a unit tent: s(1/2) = 1/2 + 3/16.
@@ -80,4 +74,4 @@ TEST(InterpolationFloor, RefusesAReferenceThatIsNoDenserThanTheKeyframes) {
 }
 
 }  // namespace
-}  // namespace loopbench::interpolation_floor_test
+}  // namespace loopbench::test::interpolation_floor_test

@@ -9,18 +9,8 @@
 #include "metrics/errors/rpe.hpp"
 #include "support.hpp"
 
-namespace loopbench::metrics_test {
-
-using namespace metrics;
-
+namespace loopbench::test::metrics_test {
 namespace {
-
-using test::find;
-using test::moved_by;
-using test::noisy;
-using test::random_pose;
-using test::random_walk;
-using test::why;
 
 constexpr double kRightAngle = std::numbers::pi / 2.0;
 
@@ -236,4 +226,4 @@ TEST(Metrics, MovedInputGivesZeroUnderSe3AndScaledUnderSim3) {
 }
 
 }  // namespace
-}  // namespace loopbench::metrics_test
+}  // namespace loopbench::test::metrics_test

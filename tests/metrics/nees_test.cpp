@@ -10,11 +10,8 @@
 #include "support.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench::nees_test {
+namespace loopbench::test::nees_test {
 namespace {
-
-using namespace metrics;
-using test::find;
 
 using Covariances = std::vector<Matrix6>;
 
@@ -276,4 +273,4 @@ TEST(Covariance, IsLinearBetweenPoses) {
 }
 
 }  // namespace
-}  // namespace loopbench::nees_test
+}  // namespace loopbench::test::nees_test

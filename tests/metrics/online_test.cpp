@@ -8,14 +8,8 @@
 #include "support.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench::online_metrics_test {
-
-using namespace metrics;
-
+namespace loopbench::test::online_metrics_test {
 namespace {
-
-using test::EvaluatedCell;
-using test::find;
 
 Trajectory poses_along_x(const std::vector<double>& positions) {
   return test::along_x(positions).keyframes;
@@ -110,4 +104,4 @@ TEST(Online, IsUndefinedWithoutClosures) {
 }
 
 }  // namespace
-}  // namespace loopbench::online_metrics_test
+}  // namespace loopbench::test::online_metrics_test

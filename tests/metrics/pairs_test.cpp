@@ -12,9 +12,6 @@
 #include "support.hpp"
 
 namespace loopbench::test::pairs_test {
-
-using namespace metrics;
-
 namespace {
 
 using Pairs = std::vector<FromTo>;

@@ -5,10 +5,7 @@
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
-namespace loopbench::planar_alignment_test {
-
-using namespace metrics;
-
+namespace loopbench::test::planar_alignment_test {
 namespace {
 
 /// A straight run along x with errors to the side that a reflection would reduce.
@@ -101,4 +98,4 @@ TEST(PlanarAlignment, IsNoneOfTheOtherTools) {
 }
 
 }  // namespace
-}  // namespace loopbench::planar_alignment_test
+}  // namespace loopbench::test::planar_alignment_test

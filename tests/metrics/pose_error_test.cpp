@@ -11,9 +11,6 @@
 #include "support.hpp"
 
 namespace loopbench::test::pose_error_test {
-
-using namespace metrics;
-
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;

@@ -12,13 +12,9 @@
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
-namespace loopbench::positions_only_test {
-
-using namespace metrics;
-
+namespace loopbench::test::positions_only_test {
 namespace {
 
-using namespace test;
 using testing::HasSubstr;
 
 Trajectory without_rotations(Trajectory poses) {
@@ -137,4 +133,4 @@ TEST(Accuracy, MissingTimeCountsAsFailed) {
 }
 
 }  // namespace
-}  // namespace loopbench::positions_only_test
+}  // namespace loopbench::test::positions_only_test

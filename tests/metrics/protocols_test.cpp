@@ -7,9 +7,6 @@
 #include "support.hpp"
 
 namespace loopbench::test::protocols_test {
-
-using namespace metrics;
-
 namespace {
 
 std::string refusal(const std::string& name, const Params& changes) {

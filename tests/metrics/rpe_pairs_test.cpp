@@ -7,9 +7,6 @@
 #include "support.hpp"
 
 namespace loopbench::test::rpe_pairs_test {
-
-using namespace metrics;
-
 namespace {
 
 const RpeOptions kSecond{.delta = 1.0, .unit = DeltaUnit::s};

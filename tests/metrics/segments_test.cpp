@@ -13,9 +13,6 @@
 #include "support.hpp"
 
 namespace loopbench::test::segments_test {
-
-using namespace metrics;
-
 namespace {
 
 using Pairs = std::vector<FromTo>;
