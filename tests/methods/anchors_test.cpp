@@ -12,13 +12,8 @@
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench::anchors_test {
-
-using namespace methods;
-
+namespace loopbench::test::anchors_test {
 namespace {
-
-using namespace test;
 
 Anchor anchor(std::size_t keyframe, const Vector3& position, double variance) {
   return {keyframe, position, variance * Matrix3::Identity()};
@@ -168,4 +163,4 @@ TEST(StartEqualsEnd, ClosesThePositionOnly) {
 }
 
 }  // namespace
-}  // namespace loopbench::anchors_test
+}  // namespace loopbench::test::anchors_test

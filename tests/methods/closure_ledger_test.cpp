@@ -8,13 +8,8 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/rounds.hpp"
 
-namespace loopbench::closure_ledger_test {
-
-using namespace methods;
-
+namespace loopbench::test::closure_ledger_test {
 namespace {
-
-using namespace test;
 
 /// The ledger is exact to first order: errors of a real size leave a difference that is
 /// proportional to them, here 4e-4 for deviations of 1e-3.
@@ -121,4 +116,4 @@ TEST(ClosurePlaces, CoveredShareCountsPlacesNotClosures) {
 }
 
 }  // namespace
-}  // namespace loopbench::closure_ledger_test
+}  // namespace loopbench::test::closure_ledger_test

@@ -16,16 +16,8 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench::conformance_test {
-
-using namespace methods;
-
-/// Name of the test parameter in ctest; the default would print the bytes of the entry.
-void PrintTo(const MethodEntry& entry, std::ostream* out) { *out << entry.name; }
-
+namespace loopbench::test::conformance_test {
 namespace {
-
-using namespace test;
 
 /// Composes a corrector with a polyline, or a smoother without a corrector; replays keyframes
 /// without correction; returns a joint method unchanged.
@@ -277,4 +269,4 @@ TEST(FindMethod, RejectsWhatCannotCorrect) {
 }
 
 }  // namespace
-}  // namespace loopbench::conformance_test
+}  // namespace loopbench::test::conformance_test

@@ -12,13 +12,8 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench::consistency_test {
-
-using namespace methods;
-
+namespace loopbench::test::consistency_test {
 namespace {
-
-using test::at_x;
 
 /// Steps of 1 m along x with variance 1 on every axis; closures with variance 0.25.
 Problem line(const std::vector<std::tuple<std::size_t, std::size_t, double>>& closures) {
@@ -179,4 +174,4 @@ TEST(MaxClique, HandlesEmptyGraphsAndGraphsWithoutEdges) {
 }
 
 }  // namespace
-}  // namespace loopbench::consistency_test
+}  // namespace loopbench::test::consistency_test

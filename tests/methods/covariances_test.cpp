@@ -13,13 +13,8 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench::covariances_test {
-
-using namespace methods;
-
+namespace loopbench::test::covariances_test {
 namespace {
-
-using namespace test;
 
 using Covariances = std::vector<Matrix6>;
 
@@ -272,4 +267,4 @@ TEST(GaussianProcess, StatesTheCovariancesOfItsLinearPosterior) {
 
 }  // namespace
 
-}  // namespace loopbench::covariances_test
+}  // namespace loopbench::test::covariances_test

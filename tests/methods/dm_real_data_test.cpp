@@ -9,10 +9,7 @@
 #include "methods/smoothers/manifold/dm.hpp"
 #include "tests/support/corrected.hpp"
 
-namespace loopbench::dm_real_data_test {
-
-using namespace methods;
-
+namespace loopbench::test::dm_real_data_test {
 namespace {
 
 struct Setting {
@@ -151,4 +148,4 @@ TEST_F(DmOnTum, SegmentCountsOfOtherKappasMatchTheDesign) {
 }
 
 }  // namespace
-}  // namespace loopbench::dm_real_data_test
+}  // namespace loopbench::test::dm_real_data_test

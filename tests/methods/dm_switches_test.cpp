@@ -6,10 +6,7 @@
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench::dm_switches_test {
-
-using namespace methods;
-
+namespace loopbench::test::dm_switches_test {
 namespace {
 
 using Text = std::string;
@@ -150,4 +147,4 @@ TEST(DmSwitches, RejectsContradictoryOptions) {
 }
 
 }  // namespace
-}  // namespace loopbench::dm_switches_test
+}  // namespace loopbench::test::dm_switches_test

@@ -7,10 +7,7 @@
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench::dm_test {
-
-using namespace methods;
-
+namespace loopbench::test::dm_test {
 namespace {
 
 Dm::Options planar(int N) { return {.planar = N}; }
@@ -195,4 +192,4 @@ TEST(Dm, RejectsOtherWindowSizes) {
 }
 
 }  // namespace
-}  // namespace loopbench::dm_test
+}  // namespace loopbench::test::dm_test

@@ -7,13 +7,8 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench::dual_test {
-
-using namespace methods;
-
+namespace loopbench::test::dual_test {
 namespace {
-
-using namespace test;
 
 TEST(Dual, FindsTheMinimumOfThePoseGraph) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -66,4 +61,4 @@ TEST(Dual, DeclinesIncompleteChainsAndTooManyLoops) {
 }
 
 }  // namespace
-}  // namespace loopbench::dual_test
+}  // namespace loopbench::test::dual_test

@@ -17,10 +17,7 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/simulated_drive.hpp"
 
-namespace loopbench::false_closures_test {
-
-using namespace methods;
-
+namespace loopbench::test::false_closures_test {
 namespace {
 
 struct Corrected {
@@ -282,4 +279,4 @@ TEST(BoundedLosses, SayThatMostClosuresHaveNoInfluence) {
 }
 
 }  // namespace
-}  // namespace loopbench::false_closures_test
+}  // namespace loopbench::test::false_closures_test

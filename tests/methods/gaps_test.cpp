@@ -11,13 +11,8 @@
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench::gaps_test {
-
-using namespace methods;
-
+namespace loopbench::test::gaps_test {
 namespace {
-
-using namespace test;
 
 /// Two sequences of a hand-held camera, `gap` seconds apart.
 Problem with_gap(double gap) {
@@ -177,4 +172,4 @@ TEST(Dm, AGapWithFramesIsFilled) {
 }
 
 }  // namespace
-}  // namespace loopbench::gaps_test
+}  // namespace loopbench::test::gaps_test

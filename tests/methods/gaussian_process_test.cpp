@@ -12,13 +12,8 @@
 #include "tests/support/noisy_paths.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench::gaussian_process_test {
-
-using namespace methods;
-
+namespace loopbench::test::gaussian_process_test {
 namespace {
-
-using namespace test;
 
 TEST(BodyRate, SeriesEqualsTheInverseRightJacobian) {
   std::mt19937_64 random(1);
@@ -214,4 +209,4 @@ TEST(GaussianProcess, HasNoKink) {
 }
 
 }  // namespace
-}  // namespace loopbench::gaussian_process_test
+}  // namespace loopbench::test::gaussian_process_test

@@ -11,13 +11,8 @@
 #include "methods/smoothers/spline/interpolate.hpp"
 #include "tests/support/noisy_paths.hpp"
 
-namespace loopbench::interpolating_splines_test {
-
-using namespace methods;
-
+namespace loopbench::test::interpolating_splines_test {
 namespace {
-
-using namespace test;
 
 /// Position is a polynomial of the given degree, rotation a polynomial angle about one axis.
 auto polynomial(int degree) {
@@ -216,4 +211,4 @@ TEST(CubicSpline, NeedsFewNewtonStepsForAnySize) {
 }
 
 }  // namespace
-}  // namespace loopbench::interpolating_splines_test
+}  // namespace loopbench::test::interpolating_splines_test

@@ -8,10 +8,7 @@
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/support/corrected.hpp"
 
-namespace loopbench::known_optima_test {
-
-using namespace methods;
-
+namespace loopbench::test::known_optima_test {
 namespace {
 
 /// A problem of the data folder, or the reason why it is missing.
@@ -92,4 +89,4 @@ TEST(KnownOptimum, DualFindsTheLowerMinimumOfMit) {
 }
 
 }  // namespace
-}  // namespace loopbench::known_optima_test
+}  // namespace loopbench::test::known_optima_test

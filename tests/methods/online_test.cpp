@@ -15,14 +15,8 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
-namespace loopbench::online_test {
-
-using namespace methods;
-
+namespace loopbench::test::online_test {
 namespace {
-
-using test::at_x;
-using test::expect_positions;
 
 /// Keyframes at 0, 1, 2, 3, 4 m, a second apart; a closure measures 2 m between the first and the
 /// fourth.
@@ -256,4 +250,4 @@ TEST(Online, KeepsTheTimeOfTheMethodAndSumsPhases) {
 }
 
 }  // namespace
-}  // namespace loopbench::online_test
+}  // namespace loopbench::test::online_test

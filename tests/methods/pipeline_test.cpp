@@ -9,13 +9,8 @@
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench::pipeline_test {
-
-using namespace methods;
-
+namespace loopbench::test::pipeline_test {
 namespace {
-
-using namespace test;
 
 TEST(WithKeyframes, FramesFollowARigidMotion) {
   const Problem before = hand_held();
@@ -98,4 +93,4 @@ TEST(TrackedFrames, StayAttachedToCorrectedKeyframes) {
 }
 
 }  // namespace
-}  // namespace loopbench::pipeline_test
+}  // namespace loopbench::test::pipeline_test

@@ -11,13 +11,8 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/simulated_drive.hpp"
 
-namespace loopbench::plausibility_test {
-
-using namespace methods;
-
+namespace loopbench::test::plausibility_test {
 namespace {
-
-using namespace test;
 
 Problem simulated(SimulatedPath path, bool planar, std::int64_t seed) {
   return test::simulated_drive({.path = path, .closures = 10, .seed = seed, .planar = planar})
@@ -133,4 +128,4 @@ TEST(VarianceComponents, DualAndPoseGraphAgreeWithRescale) {
 }
 
 }  // namespace
-}  // namespace loopbench::plausibility_test
+}  // namespace loopbench::test::plausibility_test

@@ -16,13 +16,9 @@
 #include "tests/support/random_chain.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace loopbench::pose_graph_test {
-
-using namespace methods;
-
+namespace loopbench::test::pose_graph_test {
 namespace {
 
-using namespace test;
 using Options = PoseGraphOptimizer::Options;
 
 constexpr auto optimised = [](const Problem& problem, const Options& options = {}) {
@@ -206,4 +202,4 @@ TEST(ScaleDrift, TranslationIsWeightedInTheScaleOfTheFirstKeyframe) {
 }
 
 }  // namespace
-}  // namespace loopbench::pose_graph_test
+}  // namespace loopbench::test::pose_graph_test

@@ -13,13 +13,9 @@
 #include "tests/support/corrected.hpp"
 #include "tests/support/noisy_paths.hpp"
 
-namespace loopbench::smoothing_spline_test {
-
-using namespace methods;
-
+namespace loopbench::test::smoothing_spline_test {
 namespace {
 
-using namespace test;
 using testing::Contains;
 using testing::StartsWith;
 
@@ -194,4 +190,4 @@ TEST(SmoothingSpline, HasNoKink) {
 }
 
 }  // namespace
-}  // namespace loopbench::smoothing_spline_test
+}  // namespace loopbench::test::smoothing_spline_test

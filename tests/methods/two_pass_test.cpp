@@ -11,15 +11,10 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace loopbench::two_pass_test {
-
-using namespace methods;
-
+namespace loopbench::test::two_pass_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-using namespace test;
 
 /// Steps of 1 m along x without rotation, and one closure from the first to the last keyframe.
 Problem straight(int steps, const Pose& measured) {
@@ -134,4 +129,4 @@ TEST(Elch, ClosesItsLastLoop) {
 }
 
 }  // namespace
-}  // namespace loopbench::two_pass_test
+}  // namespace loopbench::test::two_pass_test

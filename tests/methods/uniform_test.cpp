@@ -5,13 +5,8 @@
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
-namespace loopbench::uniform_test {
-
-using namespace methods;
-
+namespace loopbench::test::uniform_test {
 namespace {
-
-using namespace test;
 
 struct Result {
   Trajectory poses;
@@ -155,4 +150,4 @@ TEST(Uniform, RecoversACircleWithConstantYawDrift) {
 }
 
 }  // namespace
-}  // namespace loopbench::uniform_test
+}  // namespace loopbench::test::uniform_test
