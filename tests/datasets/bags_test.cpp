@@ -175,7 +175,7 @@ TEST_F(RealBags, EveryMessageOfTheRecordingsIsRead) {
 
 TEST_F(RealBags, CompressedDatabasesAndPipesAreRead) {
   const TemporaryFolder scratch;
-  std::string database = content(recording("tf_example.db3"));
+  std::string database = read_all(recording("tf_example.db3"));
   database[18] = database[19] = '\2';  // has a write-ahead log, as ROS 2 bags can have
   const auto plain = scratch.file("a.db3", database);
   const auto poses_of = [](const std::filesystem::path& file) {
@@ -195,7 +195,7 @@ TEST_F(RealBags, CompressedDatabasesAndPipesAreRead) {
 
 TEST_F(RealBags, ATruncatedDatabaseYieldsItsIntactPart) {
   const TemporaryFolder scratch;
-  const std::string all = content(recording("tf_example.db3"));
+  const std::string all = read_all(recording("tf_example.db3"));
   const auto file = scratch.file("cut.db3", all.substr(0, all.size() / 2));
   ReadFindings findings;
   const Trajectory poses =

@@ -34,9 +34,8 @@ std::string row_of(const std::string& pose, const Matrix6& m, CovarianceColumns:
 
 TrajectoryFile read_text(const std::string& text, Repeats repeats = Repeats::refuse) {
   const TemporaryFolder scratch;
-  const auto file = scratch.path() / "wide.txt";
-  std::ofstream(file) << text;
-  return read_trajectory_file(file, {.repeats = repeats, .positions = true});
+  return read_trajectory_file(scratch.file("wide.txt", text),
+                              {.repeats = repeats, .positions = true});
 }
 
 const std::string kPose = "1 2 0 0 0 0 0 1";        // at (2, 0, 0)
@@ -186,7 +185,7 @@ TEST(CovarianceColumns, OfPositionsAreInTables) {
   file.covariances = {position};
   EXPECT_FALSE(has_covariances(file, Format::tum));
   write_trajectory(scratch.path() / "a.csv", file, Format::csv);
-  EXPECT_THAT(content(scratch.path() / "a.csv"), HasSubstr("z,cov_x_x,cov_x_y,cov_x_z,cov_y_y"));
+  EXPECT_THAT(read_all(scratch.path() / "a.csv"), HasSubstr("z,cov_x_x,cov_x_y,cov_x_z,cov_y_y"));
   const TrajectoryFile read = read_trajectory_file(scratch.path() / "a.csv", {.positions = true});
   EXPECT_EQ(read.covariances, file.covariances);
   std::ofstream(scratch.path() / "b.csv") << "t,x,y,z,cov_x_x\n1,1,2,3,0.1\n";

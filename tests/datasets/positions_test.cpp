@@ -57,7 +57,7 @@ TEST(Positions, AreWrittenAndReadBack) {
     EXPECT_TRUE(lacks_rotations(again));
     EXPECT_EQ(again[1].world_from_body.translation, Vector3(4, 5, 6));
   }
-  EXPECT_EQ(content(scratch.path() / "b"), "timestamp,x,y,z\n0.5,1,2,3\n1,4,5,6\n");
+  EXPECT_EQ(read_all(scratch.path() / "b"), "timestamp,x,y,z\n0.5,1,2,3\n1,4,5,6\n");
   EXPECT_THAT(refusal([&] { write_trajectory("c", {.poses = poses}, Format::kitti); }),
               HasSubstr("kitti needs rotations, expected tum or csv"));
 }

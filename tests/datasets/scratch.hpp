@@ -9,7 +9,6 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -46,12 +45,6 @@ class Pipe {
   std::array<int, 2> ends_{};
   std::thread writer_;
 };
-
-inline std::string content(const std::filesystem::path& file) {
-  std::ostringstream out;
-  out << std::ifstream(file, std::ios::binary).rdbuf();
-  return out.str();
-}
 
 /// Loads a sequence as a config does.
 inline Sequence load_dataset(const std::string& name,

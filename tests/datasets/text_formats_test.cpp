@@ -51,7 +51,7 @@ TEST(Tum, WritingAndReadingKeepsEveryBit) {
 TEST(Tum, StampsHaveNoExponent) {
   const TemporaryFolder scratch;
   write_tum(scratch.path() / "a.txt", Trajectory{{1.7e9, {}}, {1.7e9 + 0.5, {}}});
-  EXPECT_EQ(content(scratch.path() / "a.txt"),
+  EXPECT_EQ(read_all(scratch.path() / "a.txt"),
             "1700000000 0 0 0 0 0 0 1\n1700000000.5 0 0 0 0 0 0 1\n");
 }
 
@@ -59,14 +59,14 @@ TEST(Tum, CommentsStandOnTopAndAreSkipped) {
   const TemporaryFolder scratch;
   const Trajectory poses{{0.5, {}}};
   write_tum(scratch.path() / "a.txt", poses, {"method: raw", "two\nlines"});
-  EXPECT_EQ(content(scratch.path() / "a.txt"),
+  EXPECT_EQ(read_all(scratch.path() / "a.txt"),
             "# method: raw\n# two\n# lines\n0.5 0 0 0 0 0 0 1\n");
   EXPECT_TRUE(same_bits(read_trajectory(scratch.path() / "a.txt"), poses));
 }
 
 TEST(Tum, WindowsLineEndsAndByteOrderMarkChangeNothing) {
   const TemporaryFolder scratch;
-  const std::string lf = content(sample("good/tum.txt"));
+  const std::string lf = read_all(sample("good/tum.txt"));
   std::string crlf;
   for (const char c : lf) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
   const Trajectory plain = read_trajectory(sample("good/tum.txt"));

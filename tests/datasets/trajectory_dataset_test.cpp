@@ -106,13 +106,11 @@ TEST(TrajectoryDataset, EndsOfListedClosuresAreKeyframes) {
   EXPECT_NEAR(stamp(problem.closures[1].to), 17.7, 1e-9);
 }
 
-std::string line(int i) {
-  return std::to_string(i) + " " + std::to_string(std::abs(i - 6)) + " 0 0 0 0 0 1\n";
-}
-
 std::string walk() {
   std::string text;
-  for (int i = 0; i <= 12; ++i) text += line(i);
+  for (int i = 0; i <= 12; ++i) {
+    text += std::to_string(i) + " " + std::to_string(std::abs(i - 6)) + " 0 0 0 0 0 1\n";
+  }
   return text;
 }
 

@@ -35,11 +35,11 @@ TEST(TrajectoryFile, ConversionKeepsEveryDigitOfStampsAndPoses) {
   EXPECT_EQ(euroc.format, Format::euroc);
   for (const TrajectoryFile& file : {tum, euroc, csv}) {
     write_trajectory(scratch.path() / "out.csv", file, Format::euroc);
-    EXPECT_EQ(content(scratch.path() / "out.csv"), kEuroc);
+    EXPECT_EQ(read_all(scratch.path() / "out.csv"), kEuroc);
     write_trajectory(scratch.path() / "out2.csv", file, Format::csv);
-    EXPECT_EQ(content(scratch.path() / "out2.csv"), kCsv);
+    EXPECT_EQ(read_all(scratch.path() / "out2.csv"), kCsv);
     write_trajectory(scratch.path() / "out.txt", file, Format::tum);
-    EXPECT_EQ(content(scratch.path() / "out.txt").substr(0, 24), "1403715271.262142976 0.1");
+    EXPECT_EQ(read_all(scratch.path() / "out.txt").substr(0, 24), "1403715271.262142976 0.1");
   }
 }
 
@@ -48,20 +48,15 @@ TEST(TrajectoryFile, StampsWithMoreThanNineDecimalsRemainDoubles) {
   const auto file = read_trajectory_file(scratch.file("a.txt", "0.12345678901 1 2 3 0 0 0 1\n"));
   EXPECT_TRUE(file.nanoseconds.empty());
   write_trajectory(scratch.path() / "b.txt", file, Format::tum);
-  EXPECT_EQ(content(scratch.path() / "b.txt"), "0.12345678901 1 2 3 0 0 0 1\n");
+  EXPECT_EQ(read_all(scratch.path() / "b.txt"), "0.12345678901 1 2 3 0 0 0 1\n");
 }
 
 TEST(TrajectoryFile, StampsThatAreNoNanosecondsAreNotWritten) {
   const TemporaryFolder scratch;
-  const auto why = [&](double first, double second, Format format) -> std::string {
+  const auto why = [&](double first, double second, Format format) {
     TrajectoryFile file;
     file.poses = {{first, Pose{}}, {second, Pose{}}};
-    try {
-      write_trajectory(scratch.path() / "out", file, format);
-      return "";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+    return refusal_of<InputError>([&] { write_trajectory(scratch.path() / "out", file, format); });
   };
   EXPECT_THAT(why(1.7e12, 1.7e12 + 100.0, Format::euroc),
               HasSubstr("out: nanoseconds of stamp 1700000000000 do not fit in 64 bits"));

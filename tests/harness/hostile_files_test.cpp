@@ -13,6 +13,7 @@
 #include "harness/tables/record_csv.hpp"
 #include "harness/tables/table.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::hostile_files_test {
 
@@ -23,12 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string why_unwritten(const fs::path& file) {
-  try {
-    write_file(file, "new");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of<InputError>([&] { write_file(file, "new"); });
 }
 
 std::size_t files_in(const TemporaryFolder& folder) {

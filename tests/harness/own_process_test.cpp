@@ -12,6 +12,7 @@
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
 #include "harness/base/sanitized.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::own_process_test {
 
@@ -20,17 +21,11 @@ using namespace harness;
 namespace {
 
 std::string failure_of(const std::function<void()>& deed, const ProcessLimits& limits = {}) {
-  try {
-    in_own_process(
-        [&] {
-          deed();
-          return std::string("returned");
-        },
-        limits);
-  } catch (const ProcessFailure& failure) {
-    return failure.what();
-  }
-  return "none";
+  const auto work = [&] {
+    deed();
+    return std::string("returned");
+  };
+  return refusal_of<ProcessFailure>([&] { in_own_process(work, limits); });
 }
 
 TEST(OwnProcess, ReturnsAnyBytesAndChangesNothingHere) {

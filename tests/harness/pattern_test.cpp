@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/error.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::pattern_test {
 
@@ -11,12 +12,7 @@ using namespace harness;
 namespace {
 
 std::string refusal(const std::string& expression) {
-  try {
-    Pattern{expression};
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "taken";
+  return refusal_of<InputError>([&] { Pattern{expression}; });
 }
 
 TEST(Pattern, IsFoundAnywhereOrHasToBeAllOfTheText) {
@@ -35,7 +31,7 @@ TEST(Pattern, BracketsOfTheTextAreTextWhenEscaped) {
 
 TEST(Pattern, RefusesInWordsWhatIsNoExpression) {
   EXPECT_EQ(refusal("("), "'(' is not a regular expression (missing ): ()");
-  EXPECT_EQ(refusal("a{99999999999}"), "taken");  // not a repetition: literal braces
+  EXPECT_EQ(refusal("a{99999999999}"), "");  // not a repetition: literal braces
   EXPECT_EQ(refusal("a{1001}"),
             "'a{1001}' is not a regular expression (invalid repetition size: {1001})");
   EXPECT_EQ(refusal("\\99999999999"),
@@ -43,19 +39,15 @@ TEST(Pattern, RefusesInWordsWhatIsNoExpression) {
   EXPECT_EQ(refusal("(?!a)"), "'(?!a)' is not a regular expression (invalid perl operator: (?!)");
   EXPECT_EQ(refusal(std::string(1'001, 'a')), "the pattern is longer than 1000 characters");
   EXPECT_EQ(refusal("\xff"), "'\xff' is not a regular expression (invalid UTF-8)");
-  try {
-    Pattern::of_option("--only", "[");
-    ADD_FAILURE() << "taken";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "--only: '[' is not a regular expression (missing ]: [)");
-  }
+  EXPECT_EQ(refusal_of<InputError>([] { Pattern::of_option("--only", "["); }),
+            "--only: '[' is not a regular expression (missing ]: [)");
 }
 
 TEST(Pattern, NeitherNestingNorRepetitionRunsAway) {
   // Each of these costs a backtracking matcher exponential time, or its stack.
   EXPECT_FALSE(Pattern("(a+)+$").matches_part(std::string(100'000, 'a') + "b"));
   EXPECT_FALSE(Pattern("(a|aa)*c").matches_part(std::string(100'000, 'a')));
-  EXPECT_NE(refusal("((((a{100}){100}){100}){100})"), "taken");
+  EXPECT_NE(refusal("((((a{100}){100}){100}){100})"), "");
   EXPECT_TRUE(Pattern(std::string(499, '(') + "a" + std::string(499, ')')).matches_part("a"));
 }
 

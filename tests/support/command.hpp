@@ -6,8 +6,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "tests/support/has.hpp"
@@ -20,13 +18,6 @@ struct CommandResult {
   std::string out;
   std::string err;
 };
-
-inline std::string read_all(const std::filesystem::path& file) {
-  const std::ifstream in(file, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();  // does not throw if a file of /proc ends with its process
-  return out.str();
-}
 
 /// `loopbench ARGUMENTS` through a shell, standard input closed, in `folder`.
 inline CommandResult loopbench_command(const std::string& arguments,

@@ -1,13 +1,21 @@
-/// A temporary folder that is removed by its destructor.
+/// A temporary folder that is removed by its destructor, and the content of a file.
 #pragma once
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 namespace loopbench {
+
+inline std::string read_all(const std::filesystem::path& file) {
+  const std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();  // does not throw if a file of /proc ends with its process
+  return out.str();
+}
 
 class TemporaryFolder {
  public:
