@@ -6,10 +6,8 @@
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench::assertion_test {
+namespace loopbench::compared_sweep::assertion_test {
 namespace {
-
-using namespace compared_sweep;  // NOLINT: its records are what every test here is about
 
 /// The sentence about an assertion that the comparison does not show, after the assertion itself;
 /// empty if it shows it.
@@ -127,4 +125,4 @@ TEST(Assertion, IsOneOfFiveSentences) {
 }
 
 }  // namespace
-}  // namespace loopbench::assertion_test
+}  // namespace loopbench::compared_sweep::assertion_test

@@ -4,10 +4,8 @@
 #include "harness/store/merge.hpp"
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench::cell_identity_test {
+namespace loopbench::tiny_store::cell_identity_test {
 namespace {
-
-using namespace tiny_store;  // NOLINT: the fixture and its config
 
 /// Two files, one of whose paths is a suffix of the other's.
 struct PairOptions {
@@ -109,4 +107,4 @@ TEST_F(CellIdentity, AChangedGroupReachesTheRecords) {
 }
 
 }  // namespace
-}  // namespace loopbench::cell_identity_test
+}  // namespace loopbench::tiny_store::cell_identity_test

@@ -9,10 +9,8 @@
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench::check_output_test {
+namespace loopbench::tiny_store::check_output_test {
 namespace {
-
-using namespace tiny_store;  // NOLINT: the fixture
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -252,4 +250,4 @@ TEST(StoredReason, IsOneLineAndKeepsWholeCharacters) {
 }
 
 }  // namespace
-}  // namespace loopbench::check_output_test
+}  // namespace loopbench::tiny_store::check_output_test

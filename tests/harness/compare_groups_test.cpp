@@ -7,10 +7,8 @@
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench::compare_groups_test {
+namespace loopbench::compared_sweep::compare_groups_test {
 namespace {
-
-using namespace compared_sweep;  // NOLINT: its records are what every test here is about
 
 bool has_note(const Comparison& c, const std::string& text) {
   return std::ranges::count_if(remarks(c),
@@ -225,4 +223,4 @@ TEST(Sequences, ThatDifferAreStatedAndTheirDifferencesNotInTheInterval) {
 }
 
 }  // namespace
-}  // namespace loopbench::compare_groups_test
+}  // namespace loopbench::compared_sweep::compare_groups_test

@@ -10,10 +10,8 @@
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench::compare_test {
+namespace loopbench::compared_sweep::compare_test {
 namespace {
-
-using namespace compared_sweep;  // NOLINT: its records are what every test here is about
 
 bool has_note(const Comparison& c, const std::string& text) {
   return std::ranges::count(remarks(c), text) == 1;
@@ -269,4 +267,4 @@ TEST(ComparisonText, HasALinePerMethodInEveryFormat) {
 }
 
 }  // namespace
-}  // namespace loopbench::compare_test
+}  // namespace loopbench::compared_sweep::compare_test

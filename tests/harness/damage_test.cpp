@@ -10,10 +10,9 @@
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench::damage_test {
+namespace loopbench::tiny_store::damage_test {
 namespace {
 
-using namespace tiny_store;  // NOLINT: the fixture and its config
 using testing::HasSubstr;
 
 class Damage : public TinyStore {
@@ -263,4 +262,4 @@ TEST_F(Damage, AnotherToolMayPackItButNotExtendIt) {
 }
 
 }  // namespace
-}  // namespace loopbench::damage_test
+}  // namespace loopbench::tiny_store::damage_test

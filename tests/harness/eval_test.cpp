@@ -7,10 +7,8 @@
 
 #include "tests/support/eval_command.hpp"
 
-namespace loopbench::eval_test {
+namespace loopbench::test::eval_test {
 namespace {
-
-using namespace test;
 
 double rmse(const std::vector<std::string>& options, const std::string& metric) {
   const Json results = eval_json(with(drift({"--protocol=evo"}), options));
@@ -144,4 +142,4 @@ TEST(EvalCovariances, OfPositionsAreThoseOfSmfeval) {
 }
 
 }  // namespace
-}  // namespace loopbench::eval_test
+}  // namespace loopbench::test::eval_test

@@ -11,13 +11,9 @@
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench::gate_file_test {
-
-using namespace harness;
-
+namespace loopbench::gate_snapshot::gate_file_test {
 namespace {
 
-using namespace gate_snapshot;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -168,4 +164,4 @@ TEST(GateText, DoubtsErrorsThatVanish) {
 }
 
 }  // namespace
-}  // namespace loopbench::gate_file_test
+}  // namespace loopbench::gate_snapshot::gate_file_test

@@ -8,13 +8,8 @@
 #include "tests/support/gate_snapshot.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench::gate_test {
-
-using namespace harness;
-
+namespace loopbench::gate_snapshot::gate_test {
 namespace {
-
-using namespace gate_snapshot;
 
 TEST(Gate, NamesTheCellWhoseNumberMovedBeyondItsLimit) {
   const GateReport report = after([](Snapshot& now) { rmse(now, 3) *= 1.0011; });
@@ -195,4 +190,4 @@ TEST(Gate, RefusesAnotherSweepEvenWhereAPartWouldDo) {
 }
 
 }  // namespace
-}  // namespace loopbench::gate_test
+}  // namespace loopbench::gate_snapshot::gate_test

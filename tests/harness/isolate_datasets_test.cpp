@@ -18,27 +18,12 @@
 #include "harness/run/check_output.hpp"
 #include "harness/run/pack.hpp"
 #include "tests/support/isolated_fixture.hpp"
+#include "tests/support/refusal_of.hpp"
 
-namespace loopbench::isolate_datasets_test {
-
-using namespace methods;
-using namespace metrics;
-using namespace harness;
-
+namespace loopbench::tiny::isolate_datasets_test {
 namespace {
 
-class IsolatedDatasets : public isolated::IsolatedFixture {};
-
-using Load = std::function<void()>;
-
-/// `line`, after a deed of the dataset.
-DatasetEntry line_after(const std::string& name, const Load& deed) {
-  return dataset<tiny::LineOptions>(
-      name, "", [=](const tiny::LineOptions& options, const DataRoot& root) {
-        deed();
-        return tiny::load_line(options, root);
-      });
-}
+class IsolatedDatasets : public IsolatedFixture {};
 
 /// Calls `work` with every socket of this process above the standard streams.
 void for_sockets(const std::function<void(int)>& work) {
@@ -137,9 +122,9 @@ TEST_F(IsolatedDatasets, ADatasetDoesNotChangeTheStateOfLaterCells) {
 }
 
 TEST_F(IsolatedDatasets, LongTextsOfDatasetsAreCut) {
-  known_.datasets.push_back(dataset<tiny::LineOptions>(
-      "talks", "", [](const tiny::LineOptions& options, const DataRoot& root) {
-        Sequence out = tiny::load_line(options, root);
+  known_.datasets.push_back(
+      dataset<LineOptions>("talks", "", [](const LineOptions& options, const DataRoot& root) {
+        Sequence out = load_line(options, root);
         out.provenance.notes.assign(2 * kMostItems, std::string(100'000, 'n'));
         return out;
       }));
@@ -154,14 +139,10 @@ TEST_F(IsolatedDatasets, LongTextsOfDatasetsAreCut) {
 }
 
 TEST_F(IsolatedDatasets, MessagesOfDatasetsAreCutAndNotEmpty) {
-  const auto message = [&](const std::string& name, const std::string& text) -> std::string {
+  const auto message = [&](const std::string& name, const std::string& text) {
     known_.datasets.push_back(line_after(name, [=] { throw std::runtime_error(text); }));
-    try {
-      run("datasets: [" + name + "]\nmethods: [straight]\nmetrics: [ate]\n", 1);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return refusal_of<InputError>(
+        [&] { run("datasets: [" + name + "]\nmethods: [straight]\nmetrics: [ate]\n", 1); });
   };
   std::string much;
   much.resize(20'000'000, 'z');
@@ -179,4 +160,4 @@ TEST(Printable, ControlCharactersOfAStreamDoNotReachTheTerminal) {
 }
 
 }  // namespace
-}  // namespace loopbench::isolate_datasets_test
+}  // namespace loopbench::tiny::isolate_datasets_test

@@ -15,15 +15,10 @@
 #include "tests/support/problems.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench::isolate_test {
-
-using namespace methods;
-using namespace metrics;
-using namespace harness;
-
+namespace loopbench::tiny::isolate_test {
 namespace {
 
-using Isolated = isolated::IsolatedFixture;
+using Isolated = IsolatedFixture;
 
 const char* const kConfig =
     "datasets: [{dataset: line, sweep: {bias: [0.1, 0.2, 0.3]}}]\n"
@@ -74,11 +69,9 @@ TEST_F(Isolated, ACellEndedByASignalFromOutsideRunsAgain) {
     if ((*shared_counter)++ == 0) raise(SIGTERM);
     return problem.keyframes;
   }));
-  known_.datasets.push_back(dataset<tiny::LineOptions>(
-      "killed_line", "", [](const tiny::LineOptions& options, const DataRoot& root) {
-        if ((*shared_counter)++ == 0) raise(SIGKILL);
-        return tiny::load_line(options, root);
-      }));
+  known_.datasets.push_back(line_after("killed_line", [] {
+    if ((*shared_counter)++ == 0) raise(SIGKILL);
+  }));
   const char* const text = "metrics: [ate]\nmethods: [killed_once, straight]\n";
   for (const std::string dataset : {"line", "killed_line"}) {
     *shared_counter = 0;
@@ -102,10 +95,8 @@ TEST_F(Isolated, TimedCellsRunAloneOnOneCore) {
 }
 
 TEST_F(Isolated, ABrokenDatasetEndsItBeforeTheFirstCell) {
-  known_.datasets.push_back(dataset<tiny::LineOptions>(
-      "broken", "", [](const tiny::LineOptions&, const DataRoot&) -> Sequence {
-        throw InputError("broken.txt: no such file");
-      }));
+  known_.datasets.push_back(
+      line_after("broken", [] { throw InputError("broken.txt: no such file"); }));
   EXPECT_EQ(refusal_of(
                 [&] { run("datasets: [line, broken]\nmethods: [straight]\nmetrics: [ate]\n", 2); }),
             "broken.txt: no such file");
@@ -113,8 +104,7 @@ TEST_F(Isolated, ABrokenDatasetEndsItBeforeTheFirstCell) {
 }
 
 TEST_F(Isolated, ADatasetThatCrashesCostsItsCells) {
-  known_.datasets.push_back(dataset<tiny::LineOptions>(
-      "crash", "", [](const tiny::LineOptions&, const DataRoot&) -> Sequence { std::abort(); }));
+  known_.datasets.push_back(line_after("crash", [] { std::abort(); }));
   const std::vector<CellResult> results =
       run("datasets: [crash, line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 2);
   ASSERT_EQ(results.size(), 4u);
@@ -129,11 +119,10 @@ TEST_F(Isolated, ASequenceThatExceedsALimitIsNotLoadedForEachOfItsCells) {
       nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(memory, MAP_FAILED);
   auto& loads = *new (memory) std::atomic<int>(0);
-  known_.datasets.push_back(dataset<tiny::LineOptions>(
-      "slow", "", [&](const tiny::LineOptions&, const DataRoot&) -> Sequence {
-        ++loads;
-        for (;;) pause();
-      }));
+  known_.datasets.push_back(line_after("slow", [&] {
+    ++loads;
+    for (;;) pause();
+  }));
   const std::vector<CellResult> results =
       run("datasets: [slow, line]\nmethods: [straight, {method: shift, sweep: {by: [1, 2, 3]}}]\n"
           "metrics: [ate]\nlimits: {seconds: 4.5}\n",
@@ -223,4 +212,4 @@ TEST(Pack, GivesASequenceBackBitForBit) {
 }
 
 }  // namespace
-}  // namespace loopbench::isolate_test
+}  // namespace loopbench::tiny::isolate_test

@@ -17,8 +17,6 @@
 
 namespace loopbench::kill_test {
 
-using namespace harness;
-
 namespace {
 
 #ifdef LOOPBENCH_SANITIZED

@@ -9,14 +9,10 @@
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 
-namespace loopbench::mark_best_test {
-
-using namespace harness;
-
+namespace loopbench::compared_sweep::mark_best_test {
 namespace {
 
 using Names = std::set<std::string>;
-using compared_sweep::ate;
 
 /// By `compare` with any baseline that has values.
 Names called_best(const std::vector<Record>& records) {
@@ -160,4 +156,4 @@ TEST(Marks, AreNotGivenAmongSequencesOrDescriptions) {
 }
 
 }  // namespace
-}  // namespace loopbench::mark_best_test
+}  // namespace loopbench::compared_sweep::mark_best_test

@@ -4,13 +4,9 @@
 #include "harness/catalogue/load_sequence.hpp"
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench::merge_test {
-
-using namespace harness;
-
+namespace loopbench::tiny_store::merge_test {
 namespace {
 
-using namespace tiny_store;  // NOLINT: the fixture and its config
 using MergeTest = TinyStore;
 
 TEST_F(MergeTest, PrefersWhatDidNotFail) {
@@ -57,4 +53,4 @@ TEST_F(MergeTest, RefusesWhatDoesNotBelongTogether) {
 }
 
 }  // namespace
-}  // namespace loopbench::merge_test
+}  // namespace loopbench::tiny_store::merge_test

@@ -10,13 +10,8 @@
 #include "harness/tables/record_csv.hpp"
 #include "tests/support/compared_sweep.hpp"
 
-namespace loopbench::pivot_test {
-
-using namespace harness;
-
+namespace loopbench::compared_sweep::pivot_test {
 namespace {
-
-using compared_sweep::ate;
 
 const double kNone = std::nan("");
 
@@ -231,4 +226,4 @@ TEST(Pivot, RefusesUnknownColumnsByName) {
 }
 
 }  // namespace
-}  // namespace loopbench::pivot_test
+}  // namespace loopbench::compared_sweep::pivot_test

@@ -10,11 +10,7 @@
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench::planted_regressions_test {
-
-using namespace metrics;
-using namespace harness;
-
+namespace loopbench::compared_sweep::planted_regressions_test {
 namespace {
 
 /// A sweep for the gate: two methods on eight repeats, with records as read from a store.
@@ -158,4 +154,4 @@ TEST(PlantedRegression, ABaselineOfAnUncommittedBuild) {
 }
 
 }  // namespace
-}  // namespace loopbench::planted_regressions_test
+}  // namespace loopbench::compared_sweep::planted_regressions_test

@@ -6,14 +6,10 @@
 
 #include "tests/support/tiny_catalogue.hpp"
 
-namespace loopbench::read_sweep_test {
-
-using namespace metrics;
-using namespace harness;
-
+namespace loopbench::tiny::read_sweep_test {
 namespace {
 
-Sweep parse(const std::string& text) { return parse_sweep(text, "c.yaml", tiny::catalogue()); }
+Sweep parse(const std::string& text) { return parse_sweep(text, "c.yaml", catalogue()); }
 
 /// A valid config in which `line` replaces one of its parts.
 std::string config(const std::string& datasets = "- line",
@@ -99,4 +95,4 @@ TEST(ReadSweep, MemorySizesAreReadAsPeopleWriteThem) {
 }
 
 }  // namespace
-}  // namespace loopbench::read_sweep_test
+}  // namespace loopbench::tiny::read_sweep_test

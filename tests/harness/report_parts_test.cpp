@@ -16,10 +16,7 @@
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench::report_parts_test {
-
-using namespace harness;
-
+namespace loopbench::compared_sweep::report_parts_test {
 namespace {
 
 TEST(Html, EscapesWhatMarkupIsMadeOf) {
@@ -164,4 +161,4 @@ TEST(ReportPage, NoiseOfTimesChangesNoFront) {
 }
 
 }  // namespace
-}  // namespace loopbench::report_parts_test
+}  // namespace loopbench::compared_sweep::report_parts_test

@@ -3,10 +3,8 @@
 
 #include "tests/support/browser.hpp"
 
-namespace loopbench::report_screens_test {
+namespace loopbench::test::report_screens_test {
 namespace {
-
-using namespace test;
 
 class ReportScreens : public testing::Test {
  protected:
@@ -59,4 +57,4 @@ TEST_F(ReportScreens, EveryScoreOfTwoEstimatesIsInTheWindow) {
 }
 
 }  // namespace
-}  // namespace loopbench::report_screens_test
+}  // namespace loopbench::test::report_screens_test

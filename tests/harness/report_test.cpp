@@ -16,10 +16,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
-namespace loopbench::report_test {
-
-using namespace harness;
-
+namespace loopbench::tiny::report_test {
 namespace {
 
 /// A sweep with awkward names, a failure and a decline, computed once.
@@ -184,4 +181,4 @@ TEST_F(OfASweep, AChromiumDrawsItWithoutAWordOfComplaint) {
 }
 
 }  // namespace
-}  // namespace loopbench::report_test
+}  // namespace loopbench::tiny::report_test

@@ -3,13 +3,8 @@
 
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench::run_failures_test {
-
-using namespace harness;
-
+namespace loopbench::tiny_store::run_failures_test {
 namespace {
-
-using namespace tiny_store;  // NOLINT: the fixture
 
 class RunFailures : public TinyStore {
  protected:
@@ -91,4 +86,4 @@ TEST_F(RunFailures, ACellKnowsHowManyOfItsScoresFailedInAnyWay) {
 }
 
 }  // namespace
-}  // namespace loopbench::run_failures_test
+}  // namespace loopbench::tiny_store::run_failures_test

@@ -10,11 +10,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
-namespace loopbench::run_test {
-
-using namespace metrics;
-using namespace harness;
-
+namespace loopbench::tiny::run_test {
 namespace {
 
 const char* const kConfig = R"(
@@ -45,7 +41,7 @@ class RunSweep : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  Catalogue known_ = tiny::catalogue();
+  Catalogue known_ = catalogue();
   Sweep sweep_ = parse_sweep(kConfig, "c.yaml", known_);
 };
 
@@ -70,7 +66,7 @@ TEST_F(RunSweep, EveryCellLeavesItsRow) {
 /// The reference lasts 9 s, the keyframes end after 3 s: coverage is a third at either times.
 TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
   known_.datasets[0].load = [](const Params& given, const DataRoot& root) {
-    Sequence out = tiny::load_line(with(tiny::LineOptions{}, given), root);
+    Sequence out = load_line(with(LineOptions{}, given), root);
     if (given.at("bias") == Param(0.3)) out.reference.push_back({9.0, {}});
     return out;
   };
@@ -96,7 +92,7 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
 
 TEST_F(RunSweep, ACellIsIncompleteOnlyAtTheTimesThatAre) {
   known_.datasets[0].load = [](const Params& given, const DataRoot& root) {
-    Sequence out = tiny::load_line(with(tiny::LineOptions{}, given), root);
+    Sequence out = load_line(with(LineOptions{}, given), root);
     out.reference.erase(out.reference.begin() + 1, out.reference.begin() + 3);
     return out;  // two of four keyframes are paired; dense evaluates both reference stamps
   };
@@ -139,4 +135,4 @@ TEST_F(RunSweep, AnUndefinedNumberIsDeclinedAloneAndSaysWhy) {
 }
 
 }  // namespace
-}  // namespace loopbench::run_test
+}  // namespace loopbench::tiny::run_test

@@ -10,10 +10,8 @@
 #include "harness/store/resume.hpp"
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench::shard_test {
+namespace loopbench::tiny_store::shard_test {
 
-using namespace harness;
-using namespace tiny_store;  // NOLINT: the fixture and its config
 using ShardTest = TinyStore;
 
 namespace {
@@ -88,4 +86,4 @@ TEST_F(ShardTest, MergeCountsWhatIsMissingAndRunCompletesIt) {
 }
 
 }  // namespace
-}  // namespace loopbench::shard_test
+}  // namespace loopbench::tiny_store::shard_test

@@ -5,13 +5,9 @@
 
 #include "tests/support/tiny_store.hpp"
 
-namespace loopbench::store_test {
-
-using namespace harness;
-
+namespace loopbench::tiny_store::store_test {
 namespace {
 
-using namespace tiny_store;  // NOLINT: the fixture and its config
 using StoreTest = TinyStore;
 
 TEST_F(StoreTest, RunningAgainRunsNothing) {
@@ -161,11 +157,10 @@ TEST_F(StoreTest, ChangedBytesOfAnInputRunItsCells) {
 
 TEST_F(StoreTest, ADamagedStoreIsRefused) {
   run(kUsual);
-  std::ostringstream sound;
-  sound << std::ifstream(file_, std::ios::binary).rdbuf();
-  std::ofstream(file_, std::ios::binary) << std::string(64, '\x5a') << sound.str().substr(64);
+  const std::string sound = read_all(file_);
+  std::ofstream(file_, std::ios::binary) << std::string(64, '\x5a') << sound.substr(64);
   expect_refused("not a database");
-  std::ofstream(file_, std::ios::binary) << sound.str().substr(0, sound.str().size() / 2);
+  std::ofstream(file_, std::ios::binary) << sound.substr(0, sound.size() / 2);
   expect_refused(file_.string());
 }
 
@@ -228,4 +223,4 @@ TEST_F(StoreTest, TracesAreThinnedEvenlyAndCountFromTheFirstReferencePose) {
 }
 
 }  // namespace
-}  // namespace loopbench::store_test
+}  // namespace loopbench::tiny_store::store_test

@@ -6,11 +6,8 @@
 #include "datasets/core/error.hpp"
 #include "tests/support/compared_sweep.hpp"
 
-namespace loopbench::success_test {
+namespace loopbench::compared_sweep::success_test {
 namespace {
-
-using namespace metrics;
-using namespace harness;
 
 std::vector<std::string> texts(const std::vector<TableCell>& line) {
   std::vector<std::string> out;
@@ -24,7 +21,7 @@ TEST(Success, CountsFailedRunsAsFailures) {
   std::vector<Record> records;
   const auto add = [&](const char* method, double error) -> Record& {
     const auto cell = static_cast<int>(records.size());
-    Record& r = records.emplace_back(compared_sweep::ate(method, error, cell));
+    Record& r = records.emplace_back(ate(method, error, cell));
     r.cell.edit().position = cell;
     r.kind.edit().unit = "m";
     return r;
@@ -49,8 +46,8 @@ TEST(Success, CountsFailedRunsAsFailures) {
 
 TEST(Success, NeedsAScoreAndAStatistic) {
   EXPECT_THROW(success_table({}, "rmse", 1.0), InputError);
-  EXPECT_THROW(success_table({compared_sweep::ate("a", 1.0, 0)}, "p42", 1.0), InputError);
+  EXPECT_THROW(success_table({ate("a", 1.0, 0)}, "p42", 1.0), InputError);
 }
 
 }  // namespace
-}  // namespace loopbench::success_test
+}  // namespace loopbench::compared_sweep::success_test

@@ -12,13 +12,8 @@
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
-namespace loopbench::tables_test {
-
-using namespace harness;
-
+namespace loopbench::compared_sweep::tables_test {
 namespace {
-
-using compared_sweep::ate;
 
 TEST(Where, KeepsWhatEveryRuleKeeps) {
   const auto keeps = [](const std::string& rule) { return where({rule})(ate("dm_n3", 1.0)); };
@@ -278,4 +273,4 @@ TEST(Summary, HasNoVerdictOnCounts) {
 }
 
 }  // namespace
-}  // namespace loopbench::tables_test
+}  // namespace loopbench::compared_sweep::tables_test

@@ -9,13 +9,11 @@
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace loopbench::traj_test {
+namespace loopbench::test::traj_test {
 namespace {
 
-using test::golden;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using namespace harness;
 
 /// Output of `loopbench traj ARGS`, which must succeed.
 std::string traj(const std::vector<std::string>& arguments) {
@@ -119,4 +117,4 @@ TEST(Traj, NamesOutputsByTheirInputs) {
 }
 
 }  // namespace
-}  // namespace loopbench::traj_test
+}  // namespace loopbench::test::traj_test

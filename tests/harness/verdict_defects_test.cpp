@@ -9,13 +9,8 @@
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 
-namespace loopbench::verdict_defects_test {
-
-using namespace harness;
-
+namespace loopbench::compared_sweep::verdict_defects_test {
 namespace {
-
-using namespace compared_sweep;  // NOLINT: its records are what every test here is about
 
 const CompareOptions kAgainstRaw{.baseline = "raw"};
 
@@ -211,4 +206,4 @@ TEST(Defect16, IntervalsStateTheirLevel) {
 }
 
 }  // namespace
-}  // namespace loopbench::verdict_defects_test
+}  // namespace loopbench::compared_sweep::verdict_defects_test

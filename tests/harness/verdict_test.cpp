@@ -10,10 +10,8 @@
 #include "harness/tables/comparison.hpp"
 #include "tests/support/compared_sweep.hpp"
 
-namespace loopbench::verdict_test {
+namespace loopbench::compared_sweep::verdict_test {
 namespace {
-
-using namespace compared_sweep;  // NOLINT: its records are what every test here is about
 
 std::vector<Comparison> against_raw(const std::vector<Record>& records) {
   return compare(records, {.baseline = "raw"});
@@ -175,4 +173,4 @@ TEST(Cautions, AreTheThreeWorst) {
 }
 
 }  // namespace
-}  // namespace loopbench::verdict_test
+}  // namespace loopbench::compared_sweep::verdict_test

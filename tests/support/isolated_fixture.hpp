@@ -4,17 +4,22 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/run/isolated_sweep.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
-namespace loopbench::isolated {
+namespace loopbench::tiny {
 
-using namespace methods;
-using namespace metrics;
-using namespace harness;
+/// `line`, after a deed of the dataset.
+inline DatasetEntry line_after(const std::string& name, const std::function<void()>& deed) {
+  return dataset<LineOptions>(name, "", [=](const LineOptions& options, const DataRoot& root) {
+    deed();
+    return load_line(options, root);
+  });
+}
 
 class IsolatedFixture : public testing::Test {
  protected:
@@ -41,7 +46,7 @@ class IsolatedFixture : public testing::Test {
 
   std::vector<CellResult> results_;  // also of a run that threw
   SandboxOptions sandbox_;
-  Catalogue known_ = tiny::catalogue();
+  Catalogue known_ = catalogue();
 };
 
-}  // namespace loopbench::isolated
+}  // namespace loopbench::tiny

@@ -14,10 +14,6 @@
 
 namespace loopbench::tiny_store {
 
-using namespace methods;
-using namespace metrics;
-using namespace harness;
-
 using Labels = std::vector<std::string>;
 
 /// The bias of the tiny line, from a file.
