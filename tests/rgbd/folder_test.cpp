@@ -5,8 +5,6 @@
 
 namespace loopbench::folder_test {
 
-using namespace rgbd;
-
 namespace {
 
 using testing::HasSubstr;

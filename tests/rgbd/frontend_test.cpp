@@ -6,8 +6,6 @@
 
 namespace loopbench::frontend_test {
 
-using namespace rgbd;
-
 namespace {
 
 using testing::Contains;

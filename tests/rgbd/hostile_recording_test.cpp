@@ -7,8 +7,6 @@
 
 namespace loopbench::hostile_recording_test {
 
-using namespace rgbd;
-
 namespace {
 
 using testing::EndsWith;

@@ -6,8 +6,6 @@
 
 namespace loopbench::synthetic {
 
-using namespace harness;
-
 namespace {
 
 const MethodVerdict* verdict_of(const Comparison& c, std::size_t method) {

@@ -8,8 +8,6 @@
 
 namespace loopbench::synthetic {
 
-using namespace harness;
-
 namespace {
 
 double uniform(std::mt19937_64& bits) {

@@ -7,7 +7,6 @@
 namespace loopbench::synthetic {
 
 using namespace metrics;
-using namespace harness;
 
 namespace {
 
