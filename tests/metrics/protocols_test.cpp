@@ -64,7 +64,6 @@ TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
             "align_first = 100: applies only to least-squares alignments, not to origin or none");
   EXPECT_EQ(refusal("loopbench", {{"align_first", std::int64_t{2}}}),
             "align_first = 2: too few pairs for least squares; for one pose use align: origin");
-  EXPECT_EQ(refusal("kitti", {{"offset", 1.0}}), "offset = 1.0: association index ignores stamps");
   EXPECT_EQ(refusal("tum", {{"pairs_from", word("reference")}}),
             "pairs_from = reference: pairs tum always use the estimate");
   EXPECT_EQ(refusal("tum", {{"project", word("xy")}}),
