@@ -1,5 +1,6 @@
 /// Stores with changed bytes: an error or the original result, never another number.
 #include <random>
+#include <thread>
 #include <tuple>
 
 #include "harness/store/merge.hpp"
@@ -237,6 +238,33 @@ TEST_F(Damage, IsFoundInAnyPartOfALargeStore) {
     Database(file, Database::Mode::read).execute("UPDATE score_value SET rmse = 1" + where);
   }
   EXPECT_EQ(read_cells(file).size(), 2500u);
+
+  // While a writer waits for a reader, no other connection can read.
+  Database(file, Database::Mode::read).execute("PRAGMA journal_mode = DELETE");
+  const auto is_readable = [&] {
+    Database other(file, Database::Mode::read);
+    other.execute("PRAGMA busy_timeout = 0");
+    try {
+      return other.integer("SELECT count(*) FROM cell") > 0;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  std::string error;
+  {
+    std::jthread writer;
+    Database reader = open_store(file);
+    writer = std::jthread([&] {
+      try {
+        Database(file, Database::Mode::read).execute("PRAGMA journal_mode = WAL");
+      } catch (const InputError& caught) {
+        error = caught.what();
+      }
+    });
+    while (is_readable()) std::this_thread::yield();
+    EXPECT_EQ(read_intact_cells(reader).size(), 2500u);
+  }
+  EXPECT_EQ(error, "");
 }
 
 TEST_F(Damage, AnotherToolMayPackItButNotExtendIt) {
