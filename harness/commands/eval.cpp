@@ -44,13 +44,16 @@ std::string verdict_of(const EvalArguments& a,
 }
 
 /// States which ATEs differ by less than the reference's own error, if that is given.
-std::string below_reference_error(const EvalArguments& a, const std::vector<Record>& records) {
-  if (a.reference_sigma == 0.0) return "";
+std::string below_reference_error(const EvalArguments& a, std::vector<Record> records) {
+  std::erase_if(records, [](const Record& r) {
+    const bool is_ate = r.kind->metric == "ate" && r.kind->relation == "translation";
+    return !is_ate || !has_numbers(r.status);
+  });
+  if (a.reference_sigma == 0.0 || records.empty()) return "";
+  change_unit(records, "m");
   std::size_t pairs = 0, below = 0;
   std::map<std::string, std::vector<double>> ates;  // by protocol
   for (const Record& r : records) {
-    const bool is_ate = r.kind->metric == "ate" && r.kind->relation == "translation";
-    if (!is_ate || !has_numbers(r.status)) continue;
     const double own = r.statistics.rmse;
     for (const double other : ates[r.kind->protocol]) {
       ++pairs;

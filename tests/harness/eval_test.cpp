@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <tuple>
 
 #include "tests/support/eval_command.hpp"
 
@@ -109,6 +110,16 @@ TEST(EvalFiles, ThreadsDoNotMatterForSeveralFiles) {
             << estimates[i] << " " << key;
       }
     }
+  }
+}
+
+TEST(Eval, ComparesWithTheErrorOfTheReferenceInAnyUnit) {
+  for (const auto& [unit, sigma, count] : {std::tuple("mm", "1", "1"), {"km", "0.1", "0"}}) {
+    const std::string text =
+        eval(with(drift({golden("est_corrected.txt")}), {"--unit", unit, "--ref-sigma", sigma}));
+    EXPECT_NE(text.find(std::string("ATE differences: ") + count + " of 1 are below"),
+              std::string::npos)
+        << text;
   }
 }
 
