@@ -58,11 +58,7 @@ std::string comparisons_text(const std::vector<Comparison>& comparisons,
                              const std::string& store) {
   if (output.format() == ExportFormat::csv) return csv(comparisons);
   if (output.format() == ExportFormat::json) return json(comparisons);
-  std::vector<Table> tables = answer(comparisons);
-  if (output.format() == ExportFormat::latex) {
-    std::erase_if(tables, [](const Table& table) { return table.headings.empty(); });
-  }
-  return text(tables, output, store);
+  return text(answer(comparisons), output, store);
 }
 
 /// Assertions are about one score.

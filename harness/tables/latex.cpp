@@ -150,6 +150,9 @@ std::string tabular(const Table& table,
 
 std::string latex(const Table& all, bool wide) {
   const Table table = with_common_unit(without_empty_columns(all));
+  std::string notes;
+  for (const std::string& note : table.notes) notes += breakable(one_line(note)) + "\\par\n";
+  if (table.headings.empty()) return "\\noindent " + breakable(table.title) + "\\par\n" + notes;
   const double limit = wide ? 495.0 : 239.0;  // [pt]
   const std::vector<PaperColumn> columns = columns_of(table, limit);
   const std::vector<Columns> parts = parts_of(columns, limit);
@@ -163,10 +166,8 @@ std::string latex(const Table& all, bool wide) {
     out += "\\begin" + environment + "\n\\centering\\footnotesize\\setlength{\\tabcolsep}{4pt}\n";
     if (!caption.empty()) out += "\\caption{" + caption + part + "}\\smallskip\n";
     out += tabular(table, columns, parts[p], limit);
-    if (p + 1 == parts.size() && !table.notes.empty()) {
-      out += "\\par\\smallskip\n\\parbox{\\linewidth}{\\raggedright\\scriptsize\n";
-      for (const std::string& note : table.notes) out += breakable(one_line(note)) + "\\par\n";
-      out += "}\n";
+    if (p + 1 == parts.size() && !notes.empty()) {
+      out += "\\par\\smallskip\n\\parbox{\\linewidth}{\\raggedright\\scriptsize\n" + notes + "}\n";
     }
     out += "\\end" + environment + "\n";
   }
