@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "harness/base/wrap.hpp"
 #include "harness/tables/table.hpp"
@@ -79,8 +80,13 @@ std::string markdown(const Table& all) {
   if (!table.headings.empty()) out += grid_text(table);
   if (!table.headings.empty() && !table.notes.empty()) out += "\n";
   for (const std::string& note : table.notes) {
-    const std::vector<std::string> lines = wrapped(escaped_markdown(note), table.note_width);
-    for (std::size_t l = 0; l < lines.size(); ++l) out += (l == 0 ? "- " : "  ") + lines[l] + "\n";
+    const char* indent = "- ";
+    for (const std::string& line : wrapped(escaped_markdown(note), table.note_width)) {
+      // Else a list, a heading or a quote.
+      const bool is_mark = line.starts_with("+ ") || line.starts_with("- ") ||
+                           line.starts_with("# ") || line.starts_with(">");
+      out += std::exchange(indent, "  ") + std::string(is_mark ? "\\" : "") + line + "\n";
+    }
   }
   return out;
 }

@@ -115,6 +115,17 @@ TEST(Formats, MarkdownHasNoLinksAndImagesOfNames) {
   EXPECT_EQ(text.find("[x]("), std::string::npos) << text;
 }
 
+TEST(Formats, LinesOfANoteBeginNoListAndNoQuote) {
+  Table table{"", {}, {}, {"aaaaaaaaa + bbbbbbbb > cccccccc - 3 # -37"}};
+  table.note_width = 10;
+  EXPECT_EQ(markdown(table), "- aaaaaaaaa\n  \\+ bbbbbbbb\n  \\> cccccccc\n  \\- 3 # -37\n");
+}
+
+TEST(Formats, LatexHasTheSentenceOfATableWithoutColumns) {
+  EXPECT_EQ(latex(Table{"a_b: 5 %", {}, {}, {"c"}}),
+            "\\noindent a\\_\\allowbreak{}b: 5 \\%\\par\nc\\par\n");
+}
+
 TEST(Formats, EscapeNamesAndMarkTheBest) {
   const std::vector<Table> tables = marked();
   const std::string notes = "marked: the methods that compare calls best\n";
