@@ -79,7 +79,7 @@ std::string answers_html(const ReportContent& content) {
       headline == nullptr ? "" : " hidden");
   for (const Comparison& c : content.comparisons) {
     if (c.methods.size() < 2) continue;
-    Table groups = verdict_table(verdict_of(c, content.comparisons));
+    Table groups = verdict_table(verdict_of(c, content.comparisons), 0);
     out += fmt::format("<div data-comparison=\"{}\"{}><p class=\"verdict\">{}</p>\n",
                        &c - content.comparisons.data(),
                        &c == headline ? "" : " hidden",

@@ -31,15 +31,14 @@ Json number_or_null(const std::optional<double>& value) { return value ? Json(*v
 /// Changes that differ by less are printed as one.
 constexpr double kPoint = 1.0;  // [%]
 
-constexpr std::size_t kLineWidth = 100;  // [columns] of a line
 constexpr std::size_t kNoteWidth = kLineWidth - 2;
 
 std::string optional_text(const std::optional<Change>& change, double narrow) {
   return change ? text(*change, narrow) : "-";
 }
 
-/// Leaves as many sequences as fit.
-void drop_last_sequences(Table& table) {
+/// Leaves as many sequences as fit into `most` characters.
+void drop_last_sequences(Table& table, std::size_t most) {
   const auto line_width = [&] {
     std::size_t out = 1;
     for (std::size_t c = 0; c < table.headings.size(); ++c) {
@@ -50,11 +49,12 @@ void drop_last_sequences(Table& table) {
     return out;
   };
   std::size_t dropped = 0;
-  for (; line_width() > kLineWidth && table.headings.size() > 3; ++dropped) {
+  for (; line_width() > most && table.headings.size() > 3; ++dropped) {
     table.headings.pop_back();
     for (auto& line : table.lines) line.pop_back();
   }
-  if (dropped > 0) table.notes.push_back(counted(dropped, "sequence") + " more in --format json");
+  if (dropped > 0)
+    table.notes.push_back(counted(dropped, "sequence") + " more: compare --format json");
 }
 
 Json change_json(const std::optional<Change>& change) {
@@ -134,7 +134,7 @@ std::string csv_field(const Json& value) {
 
 }  // namespace
 
-Table verdict_table(const Verdict& verdict) {
+Table verdict_table(const Verdict& verdict, std::size_t width) {
   Table out{.title = verdict.sentence, .note_width = kNoteWidth};
   if (verdict.has_table()) {
     out.headings = {"group", "change", fmt::format("{:g} %", verdict.level)};
@@ -149,7 +149,7 @@ Table verdict_table(const Verdict& verdict) {
   }
   for (const std::string& caution : verdict.cautions) out.notes.push_back("! " + caution);
   if (!verdict.legend.empty()) out.notes.push_back(verdict.legend);
-  drop_last_sequences(out);
+  if (width > 0) drop_last_sequences(out, width);
   return out;
 }
 

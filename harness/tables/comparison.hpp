@@ -9,10 +9,12 @@
 
 namespace loopbench::harness {
 
+inline constexpr std::size_t kLineWidth = 100;  ///< of texts [characters]
+
 /// The sentence as title, a line per group, then cautions and legend as notes. Without columns
-/// where they would show no more than the sentence, and with as many sequences as fit into 100
-/// columns.
-Table verdict_table(const Verdict& verdict);
+/// where they would show no more than the sentence, and with as many sequences as fit into lines of
+/// `width` characters; 0: all.
+Table verdict_table(const Verdict& verdict, std::size_t width = kLineWidth);
 
 /// One line per method, the first place first: place (=: shares it, >: significantly worse),
 /// median, typical change to the baseline with its interval, groups on which it is better and

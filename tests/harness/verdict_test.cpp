@@ -96,6 +96,16 @@ TEST(VerdictTable, HasTheSamePartsInEveryFormat) {
   EXPECT_TRUE(markdown(verdict_table(v)).starts_with("### " + v.sentence + "\n\n| group"));
 }
 
+TEST(VerdictTable, StatesWhichCommandPrintsSequencesThatDoNotFit) {
+  std::vector<Record> records = smoothers();
+  for (Record& r : records) r.cell.edit().sequence = std::string(50, r.cell->sequence.text()[0]);
+  const Verdict v = verdict_of(against_raw(records)[0], {});
+  EXPECT_EQ(verdict_table(v, 0).headings.size(), 5u);
+  const Table table = verdict_table(v);
+  EXPECT_EQ(table.headings.size(), 4u);
+  EXPECT_EQ(table.notes.back(), "1 sequence more: compare --format json");
+}
+
 TEST(VerdictSentence, OfTwoFilesHasTheirValues) {
   const Comparison c = compared({score("day", 0, "open", 0.064), score("day", 0, "other", 0.1222)},
                                 {.baseline = "open"});
