@@ -73,8 +73,11 @@ Lines limitations(const Comparison& c) {
   list("not ranked, use the reference (oracle)", c.oracles);
   list("closures measured in the reference or selected by it (oracle)", c.oracle_closures);
   if (c.runs < c.possible) {
-    out.push_back(fmt::format(
-        "{} of {} possible runs: two methods have a value or failed", c.runs, c.possible));
+    out.push_back(
+        fmt::format("{} of {} possible runs: {}",
+                    c.runs,
+                    c.possible,
+                    c.is_paired ? "two methods have a value or failed" : "a method has a value"));
   }
   if (c.copies > 0) {
     out.push_back(fmt::format("{} run{} the data of another and {} not counted",

@@ -188,6 +188,7 @@ TEST(Defect15, IndependentRunsAreNoGroupsAndABaselineDoesNotDifferFromItself) {
     records.push_back(run < 6 ? failed("office", run, "bad")
                               : score("office", run, "bad", 0.03 + 0.001 * run));
   }
+  records.push_back(failed("office", 10, "bad"));
   for (Record& r : records) {
     r.cell.edit().group = recorded_group(std::to_string(r.cell->repeat), "a");
   }
@@ -198,6 +199,8 @@ TEST(Defect15, IndependentRunsAreNoGroupsAndABaselineDoesNotDifferFromItself) {
   EXPECT_EQ(good.wins + good.losses, 0u);
   EXPECT_EQ(good.ratio->typical.low, 1.0);
   EXPECT_EQ(good.ratio->typical.high, 1.0);
+  const std::vector<std::string> notes = limitations(c);
+  EXPECT_EQ(std::ranges::count(notes, "10 of 11 possible runs: a method has a value"), 1);
 }
 
 TEST(Defect16, IntervalsStateTheirLevel) {
