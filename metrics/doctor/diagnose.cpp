@@ -100,17 +100,20 @@ class PairDiagnosis {
     }
   }
 
+  /// Notes it if they are not.
+  bool are_enough(const Paired& poses) {
+    if (poses.estimate.size() >= kFewestCommonPoses) return true;
+    out_.unchecked.push_back(
+        fmt::format("{}: poses of the estimate in the reference's time: {}, expected at least {}",
+                    kChecksOfPoses,
+                    poses.estimate.size(),
+                    kFewestCommonPoses));
+    return false;
+  }
+
   void check_poses() {
     Paired poses = common_poses(*reference_, *estimate_, offset_);
-    if (poses.estimate.size() < kFewestCommonPoses) {
-      out_.unchecked.push_back(
-          fmt::format("{}: poses of the estimate in the reference's time: {}, expected at "
-                      "least {}",
-                      kChecksOfPoses,
-                      poses.estimate.size(),
-                      kFewestCommonPoses));
-      return;
-    }
+    if (!are_enough(poses)) return;
     const bool is_reference = is_at_rest(*reference_);
     if (is_reference || is_at_rest(*estimate_)) {
       out_.unchecked.push_back(fmt::format("{}: the {} moves by less than {:g} times its noise",
@@ -121,6 +124,7 @@ class PairDiagnosis {
     }
     out_.has_checked = true;
     remove_all_jumps(poses);
+    if (!are_enough(poses)) return;
     if (!agreement(poses).has_rotations) {
       note_constant_rotation(largest_rotation_angle(poses.reference),
                              largest_rotation_angle(poses.estimate));

@@ -117,6 +117,16 @@ TEST(Doctor, OutliersOfPositions) {
   EXPECT_THAT(found.evidence, HasSubstr(" and 1 more time: without"));
 }
 
+TEST(Doctor, AnOutlierOfTheFewestPosesLeavesTooFew) {
+  Trajectory reference = truth(), estimate = sampled(2);
+  reference.resize(1100);
+  estimate.resize(20);
+  estimate[9].world_from_body.translation.x() += 40.0;
+  const Diagnosis found = diagnosis(reference, estimate, "reference.txt", "run.txt");
+  only(found.findings, Fault::jumps);
+  EXPECT_THAT(found.unchecked, ElementsAre(HasSubstr("in the reference's time: 19, expected")));
+}
+
 /// The path of another day, with other curves at other times.
 TEST(Doctor, AnotherRecording) {
   Trajectory other;
