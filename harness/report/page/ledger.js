@@ -9,14 +9,16 @@
   const kinds = { suspicious: ["most suspicious", "#7d1d6f"], doubtful: ["doubtful", "#efb400"], confirmed: ["confirmed by others", "#2aa59a"] };
   const color = (kind) => d3.interpolateRgb(kinds[kind][1], "#fff")(R.dark.matches ? 0.35 : 0);
   const number = (text) => (text === "" ? "-" : d3.format(text < 1 ? ".3f" : text < 10 ? ".2f" : text < 100 ? ".1f" : ".0f")(text));
-  const name = (row) => [row.from, row.to].map((end) => +Number(end).toFixed(3)).join(" → ");
+  // An id can have more digits than a number.
+  const keyframe = (text) => (/^-?\d+$/.test(text) ? text : +Number(text).toFixed(3));
+  const name = (row) => [row.from, row.to].map(keyframe).join(" → ");
   const of = (column) => (row) => number(row[column]);
   const columns = [
     ["closure", name], ["judgement", (row) => kinds[row.judgement][0]],
     ["place", (row) => row.place], ["loop [m]", of("loop_m")],
     ["odometry [m]", of("odometry_m")], ["[deg]", of("odometry_deg")], ["[sd]", of("odometry_sd")],
     ["others [m]", of("others_m")], ["[deg]", of("others_deg")], ["[sd]", of("others_sd")],
-    ["moves rms [m]", of("moves_rms_m")], ["max [m]", of("moves_max_m")], ["at", (row) => +Number(row.moves_max_at).toFixed(3)],
+    ["moves rms [m]", of("moves_rms_m")], ["max [m]", of("moves_max_m")], ["at", (row) => keyframe(row.moves_max_at)],
     ["chi2 drop", of("chi2_drop")],
   ];
 

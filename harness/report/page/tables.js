@@ -3,7 +3,7 @@
   "use strict";
   const R = window.R;
   const numberIn = (text) => {
-    const found = /^[<>\s]*(-?[\d.]+(?:e[-+]?\d+)?)/i.exec(text);
+    const found = /^[<>\s]*([-+]?[\d.]+(?:e[-+]?\d+)?)/i.exec(text);
     return found ? Number(found[1]) : NaN;
   };
 
