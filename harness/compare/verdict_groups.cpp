@@ -74,17 +74,19 @@ std::string percent_of_ratio(double ratio) {
 /// ", dm_robust 66 % better": the method that is best there, if that is significant.
 std::string best_there(const Comparison& c, const std::string& sequence) {
   const MethodVerdict* best = nullptr;
-  double least = 1.0;
+  double least = 1.0, found = 1.0;
   for (const MethodVerdict& m : c.methods) {
     if (!m.ratio) continue;
     for (const SequenceRatio& one : m.ratio->by_sequence) {
       if (one.sequence != sequence || !one.is_clear) continue;
       const double ratio = c.kind.better == metrics::Better::higher ? 1.0 / one.ratio : one.ratio;
-      if (ratio < least) best = &m;
-      least = std::min(least, ratio);
+      if (!(ratio < least)) continue;
+      best = &m;
+      least = ratio;
+      found = one.ratio;
     }
   }
-  return best == nullptr ? "" : ", " + best->method + " " + percent_of_ratio(least) + " better";
+  return best == nullptr ? "" : ", " + best->method + " " + percent_of_ratio(found) + " better";
 }
 
 /// At most one for each method: the worst sequence.

@@ -171,6 +171,15 @@ TEST(Cautions, OfAMethodThatDependsOnTheSequenceLeaveNoNumberOverAll) {
   EXPECT_TRUE(std::ranges::all_of(v.groups, [](const VerdictGroup& g) { return !g.all; }));
 }
 
+TEST(Cautions, OfAHigherScoreHaveTheChangesOfTheTable) {
+  std::vector<Record> records = errors({{"raw", {1.0, 1.0}}, {"a", {2.0, 0.5}}, {"b", {2.0, 2.0}}});
+  for (Record& r : records) r.kind.edit().better = metrics::Better::higher;
+  const std::vector<Comparison> all = against_raw(records);
+  const std::vector<std::string> cautions = verdict_of(all[0], all).cautions;
+  ASSERT_EQ(cautions.size(), 1u);
+  EXPECT_EQ(cautions[0], "a is 50 % worse than raw on sparse, b 100 % better");
+}
+
 TEST(Cautions, AreTheThreeWorst) {
   std::vector<std::pair<std::string, std::array<double, 2>>> methods{{"raw", {1.0, 1.0}}};
   for (int m = 0; m < 5; ++m) {
