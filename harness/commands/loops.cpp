@@ -29,7 +29,8 @@ int run_loops(const LoopsCommand& a) {
   if (!a.csv.empty()) reject_overwriting({a.input.estimate, a.input.loops}, a.csv);
   LoopsResult result = loops(load_problem(a.input, catalogue({})), a.input.estimate);
   add_rejections(result);
-  fmt::print("{}", a.json ? json(result) : fitted_lines(printable(text(result, kMostRows))));
+  std::FILE* const out = is_dash(a.csv) ? stderr : stdout;  // rows are on stdout
+  fmt::print(out, "{}", a.json ? json(result) : fitted_lines(printable(text(result, kMostRows))));
   if (!a.csv.empty()) write_file(a.csv, csv(result));
   if (!a.plot.empty()) draw_map(loops_figure(result), a.plot, a.figure);
   return is_contradicted(result.ledger.verdict) ? kExitNotShown : kExitOk;
