@@ -126,7 +126,10 @@ inline std::string plane_note(const metrics::Evaluation& evaluation) {
   const bool is_fitted = align == metrics::Align::se3 || align == metrics::Align::sim3;
   if (evaluation.protocol.planar == Planar::no || !is_fitted) return "";
   if (evaluation.protocol.planar == Planar::yes) {
-    return "planar, as set: both trajectories were moved to their planes and aligned there";
+    return std::string("planar, as set: both trajectories were moved to their planes") +
+           (evaluation.planar ? " and aligned there"
+                              : ", but all six degrees of freedom are aligned, because their "
+                                "bodies (of positions: their worlds) have different axes");
   }
   if (evaluation.planar) {
     return "planar: both trajectories are in one plane, so they are aligned in x, y and yaw "

@@ -51,6 +51,9 @@ namespace {
 }
 
 void check_alignment(const Protocol& p) {
+  if (p.planar == Planar::yes && p.align != Align::se3 && p.align != Align::sim3) {
+    refuse("planar", "yes", "applies only to alignments se3 and sim3");
+  }
   if (p.align_first == 0) return;
   const std::string first = std::to_string(p.align_first);
   const bool is_first_pose = p.align == Align::origin || p.align == Align::posyaw_origin;

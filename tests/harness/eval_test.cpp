@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <tuple>
 
+#include "harness/eval/evaluation_checks.hpp"
 #include "tests/support/eval_command.hpp"
+#include "tests/support/problems.hpp"
 
 namespace loopbench::test::eval_test {
 namespace {
@@ -92,6 +94,26 @@ TEST(EvalFilters, UnitsChange) {
   EXPECT_NEAR(ape["rmse"], 0.11910329954688206, 1e-12);
   const Json degrees = evaluated({"--unit=deg", "-r", "angle_rad"});
   EXPECT_NEAR(degrees["metrics"][0]["rmse"], 0.11910329954688206 * 180.0 / M_PI, 1e-9);
+}
+
+TEST(EvalNotes, StateHowPlanesAreAligned) {
+  const Pose camera{Rotation(0.5, -0.5, 0.5, -0.5), Vector3::Zero()};  // y down, z forward
+  Trajectory up, down;
+  for (int i = 0; i <= 100; ++i) {
+    const double u = 0.05 * i;
+    const Pose pose = turned_about_z(u, 10.0 * Vector3(std::sin(u), -std::cos(u), 0.0));
+    up.push_back({u, pose});
+    down.push_back({u, normalized(pose * camera)});
+  }
+  const auto note = [&](const Trajectory& estimate) {
+    return plane_note(metrics::evaluate(up, estimate, {.planar = Planar::yes}));
+  };
+  const std::string moved = "planar, as set: both trajectories were moved to their planes";
+  EXPECT_EQ(note(up), moved + " and aligned there");
+  EXPECT_EQ(note(down),
+            moved +
+                ", but all six degrees of freedom are aligned, because their bodies (of "
+                "positions: their worlds) have different axes");
 }
 
 // Several files are evaluated in parallel.

@@ -64,6 +64,8 @@ TEST(Protocols, IncoherentOnesAreRefusedWithTheReason) {
             "align_first = 100: applies only to least-squares alignments, not to origin or none");
   EXPECT_EQ(refusal("loopbench", {{"align_first", std::int64_t{2}}}),
             "align_first = 2: too few pairs for least squares; for one pose use align: origin");
+  EXPECT_EQ(refusal("evo", {{"planar", word("yes")}}),
+            "planar = yes: applies only to alignments se3 and sim3");
   EXPECT_EQ(refusal("tum", {{"pairs_from", word("reference")}}),
             "pairs_from = reference: pairs tum always use the estimate");
   EXPECT_EQ(refusal("tum", {{"project", word("xy")}}),
