@@ -107,8 +107,10 @@ std::optional<InputFinding> check_missing(const Trajectory& reference,
   const double least = std::max(kLeastGap, kUsualGaps * usual_interval(estimate));
   double all = 0.0, missing = 0.0, longest = 0.0, begin = 0.0;
   const std::size_t step = even_step(reference.size(), kMostPoses);
+  const double pause = std::max(least, 3.0 * static_cast<double>(step) * usual_interval(reference));
   for (std::size_t i = step; i < reference.size(); i += step) {
     const auto& [from, pose] = reference[i - step];
+    if (reference[i].stamp - from > pause) continue;  // the reference has no poses, either
     const double length = (reference[i].world_from_body.translation - pose.translation).norm();
     all += length;
     const std::size_t next = first_from(estimate, 0.5 * (from + reference[i].stamp) - offset);

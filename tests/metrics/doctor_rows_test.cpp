@@ -24,6 +24,28 @@ TEST(DoctorOfRows, LostPosesAtTheOriginAndManyOutliers) {
   EXPECT_THAT(faults(truth(), outliers), ElementsAre(Fault::jumps));
 }
 
+TEST(DoctorOfRows, AnOutlierOfTheFewestPosesHidesNoRotations) {
+  Trajectory few = sampled(2.5);
+  few.resize(20);
+  few[10].world_from_body.translation.x() += 6.0;
+  const Diagnosis found = diagnosis(truth(), few, "reference.txt", "run.txt");
+  EXPECT_THAT(found.findings.back().evidence, HasSubstr("position jumps at"));
+  EXPECT_THAT(found.unchecked, ElementsAre(HasSubstr("reference's time: 19, expected at least")));
+}
+
+TEST(DoctorOfRows, AGapOfBothIsNoMistake) {
+  const auto interrupted = [](Trajectory poses, const Rotation& world) {
+    std::erase_if(poses, [](const StampedPose& p) { return p.stamp > 15.0 && p.stamp < 25.0; });
+    for (auto& [stamp, pose] : poses) {
+      if (stamp > 15.0) pose.translation += world * Vector3(60.0, 0.0, 0.0);
+    }
+    return poses;
+  };
+  EXPECT_THAT(faults(interrupted(truth(), Rotation::Identity()),
+                     interrupted(sampled(20), exp_so3({0.1, -0.2, 1.0}))),
+              testing::IsEmpty());
+}
+
 TEST(DoctorOfRows, ATruePauseOfBothIsNoMistake) {
   const auto paused = [](Trajectory poses) {
     for (StampedPose& pose : poses) {
