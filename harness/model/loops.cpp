@@ -174,13 +174,21 @@ std::string csv(const LoopsResult& result, int digits) {
 }
 
 std::string stored_ledger(const Problem& problem) try {
-  constexpr std::size_t kMost = 200;  // as many as the map of a report shows
+  constexpr std::size_t kMost = 200;             // as many as the map of a report shows
+  constexpr std::size_t kMostMoves = 2'000'000;  // of keyframes without a closure each
   constexpr int kDigits = 5;
   if (problem.closures.empty()) return "";
   if (problem.closures.size() > kMost) {
     return fmt::format("Not computed for more than {} closures (here {}): see loopbench loops",
                        kMost,
                        problem.closures.size());
+  }
+  if (problem.closures.size() * problem.keyframes.size() > kMostMoves) {
+    return fmt::format(
+        "Not computed for {} closures of {} keyframes, which take long: see "
+        "loopbench loops",
+        problem.closures.size(),
+        problem.keyframes.size());
   }
   const std::string why = methods::why_no_ledger(problem);
   if (!why.empty()) return why;

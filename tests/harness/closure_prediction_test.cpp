@@ -66,6 +66,11 @@ TEST(StoredLedger, StatesWhyThereIsNone) {
   problem.closures.resize(201, problem.closures[1]);
   EXPECT_EQ(stored_ledger(problem),
             "Not computed for more than 200 closures (here 201): see loopbench loops");
+  problem.closures.resize(21);
+  problem.keyframes.resize(100'000);
+  EXPECT_EQ(stored_ledger(problem),
+            "Not computed for 21 closures of 100000 keyframes, which take long: see loopbench "
+            "loops");
   problem.closures.clear();
   EXPECT_EQ(stored_ledger(problem), "");
 }
