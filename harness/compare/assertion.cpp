@@ -58,8 +58,9 @@ Assertion parse_assertion(const std::string& text) {
   static const std::regex kForms(
       R"((.+?) is (below|not above|not shown to differ from|at least (\d*\.?\d+) % below|)"
       R"(at most (\d*\.?\d+) % above) (.+))");
+  constexpr std::size_t kMost = 10'000;  // a match takes stack for each character
   std::smatch found;
-  if (!std::regex_match(text, found, kForms)) {
+  if (text.size() > kMost || !std::regex_match(text, found, kForms)) {
     throw InputError(
         "--assert: expected 'A is below B', 'A is at least X % below B', 'A is not above B', "
         "'A is at most X % above B' or 'A is not shown to differ from B', found '" +

@@ -122,6 +122,8 @@ TEST(Assertion, IsOneOfFiveSentences) {
               "'A is at most X % above B' or 'A is not shown to differ from B', found '" +
                   text + "'");
   }
+  EXPECT_TRUE(
+      has(refusal_of([] { why(std::string(1'000'000, 'a')); }), "--assert: expected 'A is "));
 }
 
 }  // namespace
