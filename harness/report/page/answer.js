@@ -25,10 +25,7 @@
     const groups = comparison.groups_of_methods;
     const ends = groups.flatMap((g) => [...(g.change || []), ...(g.interval || [])]).concat(0);
     const x = d3.scaleLinear(d3.extent(ends), [3, kWidth - 3]);
-    const heading = document.createElement("th");
-    heading.textContent = `change to ${comparison.baseline}`;
-    heading.scope = "col";
-    table.tHead.rows[0].cells[0].after(heading);
+    table.tHead.rows[0].cells[1].colSpan = 2;  // bars and numbers
     groups.forEach((group, g) => {
       const drawn = R.scores.default_methods.find((m) => group.methods.includes(R.methods[m].name));
       bar(table.tBodies[0].rows[g], group, x, drawn === undefined ? "var(--soft)" : R.color(drawn));

@@ -5,6 +5,12 @@ if (wide >= 1200 && document.documentElement.scrollHeight > 6000) said.push("hig
 const charts = [...document.querySelectorAll("#answer svg")].map((chart) => chart.getBoundingClientRect());
 const first = charts.find((box) => box.width > 0);
 if (!first || first.width < 100 || first.bottom > innerHeight) said.push("no chart on the first screen");
+for (const table of document.querySelectorAll("#answer table")) {
+  const headings = [...table.tHead.rows[0].cells];
+  const columns = headings.reduce((sum, heading) => sum + heading.colSpan, 0);
+  const changes = headings.filter((heading) => heading.textContent.startsWith("change")).length;
+  if (columns !== table.tBodies[0].rows[0].cells.length || changes !== 1) said.push("headings of the answer");
+}
 for (const fold of document.querySelectorAll("main > details")) fold.open = true;
 R.changed();
 if (document.documentElement.scrollWidth > wide) said.push("page wider than the window: " + document.documentElement.scrollWidth);
