@@ -67,6 +67,20 @@ TEST(TwoPass, DistributesScaleAsAPowerOfTheShareAndOnce) {
   EXPECT_NEAR(rigid[1].world_from_body.translation.x(), 3.75, 1e-12);
 }
 
+TEST(TwoPass, HasOwnWeightsForRotationAndTranslation) {
+  // Steps of 1 and 3 m: the first is half of the steps, or a quarter of the distance.
+  Problem problem = along_x({0, 1, 4});
+  problem.closures.push_back({0, 2, {exp_so3({0, 0, kPi / 2}), {0, 0, 4}}});
+  const auto expect = [&](const TwoPass::Options& options, double yaw, double z) {
+    const Pose middle = corrected<TwoPass>(problem, options)[1].world_from_body;
+    EXPECT_NEAR(log_so3(middle.rotation).z(), yaw, 1e-12);
+    EXPECT_NEAR(middle.translation.z(), z, 1e-12);
+  };
+  expect({}, kPi / 4, 2.0);
+  expect({.rotation_weights = StepWeights::distance}, kPi / 8, 2.0);
+  expect({.translation_weights = StepWeights::distance}, kPi / 4, 1.0);
+}
+
 TEST(TwoPass, MovesTheTailRigidly) {
   Problem problem = straight(6, {});
   problem.closures = {{0, 2, {exp_so3({0, 0, kPi / 2}), Vector3(1, 1, 0)}, Matrix6::Identity()}};
