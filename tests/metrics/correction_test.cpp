@@ -288,11 +288,8 @@ TEST(Jerk, LeavesOutIntervalsAcrossAReferenceGap) {
 }
 
 TEST(Jerk, OfAStraightReferenceHasNoRatio) {
-  Trajectory poses(5);
-  for (std::size_t i = 0; i < 5; ++i) poses[i].stamp = static_cast<double>(i);
-  Problem problem;
-  problem.keyframes = poses;
-  const EvaluatedCell cell(poses, problem, poses, kAsIs);
+  const Problem problem = test::along_x({0, 1, 2, 3, 4});
+  const EvaluatedCell cell(problem.keyframes, problem, problem.keyframes, kAsIs);
   EXPECT_EQ(jerk(cell.evaluation, {.rate = 1.0, .max_gap = 2.0}).at(2).why_undefined,
             "the reference has zero jerk");
 }
