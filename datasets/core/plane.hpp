@@ -81,8 +81,8 @@ inline std::optional<MotionPlane> motion_plane(const Trajectory& poses) {
 }
 
 /// Returns the plane whose normal is the axis z, y or x of the body that is the most constant in
-/// the world; `in_body`: or this one. Of positions without rotation: the axis of the world along
-/// which they vary least. Not for an empty list. O(n).
+/// the world; `in_body`: or this one. Of positions without rotation: the axis z, y or x of the
+/// world along which they hardly vary, or vary least. Not for an empty list. O(n).
 inline MotionPlane nearest_plane(const Trajectory& poses,
                                  const std::optional<Vector3>& in_body = {}) {
   MotionPlane out;
@@ -92,9 +92,11 @@ inline MotionPlane nearest_plane(const Trajectory& poses,
       low = low.cwiseMin(each.world_from_body.translation);
       high = high.cwiseMax(each.world_from_body.translation);
     }
+    constexpr double kFlat = 0.1;  // of the largest extent; a straight run varies least sideways
+    const Vector3 extent = high - low;
     int axis = 2;
     for (const int other : {1, 0}) {
-      if (high[other] - low[other] < high[axis] - low[axis]) axis = other;
+      if (extent[axis] > kFlat * extent.maxCoeff() && extent[other] < extent[axis]) axis = other;
     }
     return {Vector3::Unit(axis), Vector3::Unit(axis)};
   }

@@ -84,6 +84,15 @@ TEST(MotionPlane, OfPositionsIsFoundWithoutRotations) {
   EXPECT_FALSE(motion_plane(positions));
 }
 
+TEST(NearestPlane, OfPositionsOnAStraightRunIsThatOfTheWorldsZ) {
+  Trajectory run = on_a_line({0.0, 10.0, 20.0, 30.0}, 1.0);
+  for (auto& [stamp, pose] : run) pose.rotation = no_rotation();
+  run[2].world_from_body.translation.z() = 0.5;
+  EXPECT_EQ(nearest_plane(run).in_world, kZ);
+  run[3].world_from_body.translation.z() = 20.0;  // a world with y up or down
+  EXPECT_EQ(nearest_plane(run).in_world, Vector3::UnitY());
+}
+
 TEST(MotionPlane, DoesNotExistWithNoiseOrAtRest) {
   EXPECT_FALSE(motion_plane({}));
   EXPECT_FALSE(motion_plane(Trajectory(100)));
