@@ -189,7 +189,7 @@ std::vector<std::string> cautions_of(const Comparison& c, const std::vector<Comp
   for (const Caution& each : found) {
     if (out.size() < kMost) out.push_back(each.text);
   }
-  if (found.size() > kMost) out.push_back(fmt::format("{} more like that", found.size() - kMost));
+  if (found.size() > kMost) out.push_back(fmt::format("{} more cautions", found.size() - kMost));
   return out;
 }
 

@@ -188,7 +188,7 @@ TEST(Cautions, AreTheThreeWorst) {
   const Verdict v = verdict_of(against_raw(errors(methods))[0], {});
   ASSERT_EQ(v.cautions.size(), 4u);
   EXPECT_TRUE(v.cautions[0].starts_with("m4 is 60 % worse than raw on sparse")) << v.cautions[0];
-  EXPECT_EQ(v.cautions[3], "2 more like that");
+  EXPECT_EQ(v.cautions[3], "2 more cautions");
 }
 
 }  // namespace
