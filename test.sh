@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ./test.sh            setup, optimised build, tests
-# ./test.sh all        also projects outside the tree, benchmarks, studies and LaTeX, style, tests under ASan and UBSan,
-#                      and threaded code under TSan; CI runs that
+# ./test.sh all        also projects outside the tree, benchmarks, studies, commands of pages, LaTeX, style, tests under
+#                      ASan and UBSan, and threaded code under TSan; CI runs that
 # ./test.sh NAME...    only these (lint, package, slurm, colcon, or a preset: release, debug, tsan, gcc)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -73,8 +73,12 @@ for preset in "$@"; do
     $loopbench check $checked --baseline results/reference/quickstart.json --junit $checked/junit.xml
     results/claims.sh $checked $loopbench
     tests/documented_outputs.sh $loopbench . $checked
-    tests/documented_runs.sh $loopbench . $checked
-    if [[ $extras == ON ]]; then tests/latex.sh $loopbench $checked; else echo "skipped: LaTeX (./test.sh all)"; fi
+    if [[ $extras == ON ]]; then
+      tests/documented_runs.sh $loopbench . $checked
+      tests/latex.sh $loopbench $checked
+    else
+      echo "skipped: commands of pages, LaTeX (./test.sh all)"
+    fi
   fi
 done
 [[ $* == "tsan debug release" || $* == "lint tsan debug release" ]] && counts+=("slurm: skipped, run ./test.sh slurm")
