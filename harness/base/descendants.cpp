@@ -149,9 +149,8 @@ TreeUsage usage_of(const std::vector<pid_t>& processes,
   return out;
 }
 
-/// CPU time of a process and of the children that it waited for [s]. That of the children has the
-/// resolution of the fields of /proc/PROCESS/stat, usually 10 ms; so has its own if it has no
-/// clock.
+/// CPU time of a process and of the children that it waited for [s], the latter in the steps of
+/// /proc/PROCESS/stat, usually 10 ms; so is its own if it has no clock.
 double cpu_seconds_of(const std::string& process) {
   const std::string stat = read_system_file("/proc/" + process + "/stat");
   std::istringstream fields(stat.substr(std::min(stat.rfind(')') + 1, stat.size())));

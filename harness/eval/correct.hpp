@@ -44,8 +44,7 @@ struct Correction {
   Trajectory keyframes;  ///< corrected, stamps and order of `problem.keyframes`
   Trajectory output;     ///< at the requested stamps, ascending; the corrected keyframes by default
   std::size_t outside = 0;  ///< requested stamps outside the keyframes' time span, not in `output`
-  /// Of odometry, the closures that the method did not reject, and anchors if there are any; unset
-  /// if an edge changes the scale.
+  /// Of all edges but rejected closures; unset if an edge changes the scale.
   std::optional<std::vector<Residual>> before;
   std::optional<std::vector<Residual>> after;
   std::optional<std::size_t> rejected;  ///< closures; unset: the method rejects none

@@ -45,7 +45,8 @@ inline std::string shared_datum(const metrics::Evaluation& evaluation, bool is_o
   if (!is_one_datum && !is_near) return "";
   const auto count = static_cast<double>(pairs.size());
   return fmt::format(
-      "datum: both files {} in the same frame: ATE {:.4g} m without alignment (--align none), {:.4g} m "
+      "datum: both files {} in the same frame: ATE {:.4g} m without alignment (--align none), "
+      "{:.4g} m "
       "with {}",
       is_one_datum ? "are" : "seem to be",
       std::sqrt(unaligned / count),

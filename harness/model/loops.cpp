@@ -45,8 +45,7 @@ std::string places_text(const ClosureLedger& ledger) {
 std::string few_places_text(const ClosureLedger& ledger) {
   std::string out = fmt::format(
       "{} at {}. Whether the correction helps cannot be shown: closures at three or more places "
-      "are "
-      "needed to check each by the others.",
+      "are needed to check each by the others.",
       counted(ledger.rows.size(), "closure"),
       counted(ledger.places, "place"));
   constexpr double kFar = 10.0;  // chi2 per degree of freedom
@@ -184,11 +183,9 @@ std::string stored_ledger(const Problem& problem) try {
                        problem.closures.size());
   }
   if (problem.closures.size() * problem.keyframes.size() > kMostMoves) {
-    return fmt::format(
-        "Not computed for {} closures of {} keyframes, which take long: see "
-        "loopbench loops",
-        problem.closures.size(),
-        problem.keyframes.size());
+    return fmt::format("Not computed for {} closures of {} keyframes: see loopbench loops",
+                       problem.closures.size(),
+                       problem.keyframes.size());
   }
   const std::string why = methods::why_no_ledger(problem);
   if (!why.empty()) return why;

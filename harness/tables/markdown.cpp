@@ -82,7 +82,6 @@ std::string markdown(const Table& all) {
   for (const std::string& note : table.notes) {
     const char* indent = "- ";
     for (const std::string& line : wrapped(escaped_markdown(note), table.note_width)) {
-      // Else a list, a heading or a quote.
       const bool is_mark = line.starts_with("+ ") || line.starts_with("- ") ||
                            line.starts_with("# ") || line.starts_with(">");
       out += std::exchange(indent, "  ") + std::string(is_mark ? "\\" : "") + line + "\n";

@@ -62,8 +62,7 @@ std::vector<std::string> reasons(const std::vector<Record>& records) {
   return out;
 }
 
-/// The leading score in translation and rotation, the first relative one, and the CPU times; times
-/// by the clock if a CPU time is unknown.
+/// The leading score in translation and rotation, the first relative one, and the CPU times.
 std::vector<Record> shown(const std::vector<Record>& records,
                           const std::vector<Record>& candidates,
                           const Record& lead) {
@@ -80,13 +79,11 @@ std::vector<Record> shown(const std::vector<Record>& records,
     return r.status == Status::ok && r.kind->metric == "time" &&
            r.kind->times == lead.kind->times && r.kind->protocol == lead.kind->protocol;
   };
-  const bool has_cpu = std::ranges::all_of(
-      records, [&](const Record& r) { return !is_time(r) || r.cell->cpu_seconds.has_value(); });
   Shared<ScoreKind> cpu;
   for (const Record& r : records) {
     if (!is_time(r)) continue;
     out.push_back(r);
-    if (!has_cpu) continue;
+    if (!r.cell->cpu_seconds) continue;
     if (cpu->label.empty()) (cpu = r.kind).edit().label = "cpu";
     out.back().kind = cpu;
     if (!r.cell->is_stated()) out.back().statistics.rmse = 1e3 * *r.cell->cpu_seconds;

@@ -1,9 +1,6 @@
 /// Everything that a program needs to read, evaluate and correct trajectories. In CMake:
-///
-///     find_package(loopbench 1 REQUIRED)  # or: add_subdirectory(loopbench)
-///     target_link_libraries(mine PRIVATE loopbench::loopbench)
-///
-/// Without it: c++ -std=c++20 mine.cpp $(pkg-config --cflags --libs loopbench). In a package of
+/// find_package(loopbench 1 REQUIRED), target_link_libraries(mine PRIVATE loopbench::loopbench);
+/// without: c++ -std=c++20 mine.cpp $(pkg-config --cflags --libs loopbench); in a package of
 /// colcon: <depend>loopbench</depend>. tests/plugin/embedded is a complete program.
 #pragma once
 
