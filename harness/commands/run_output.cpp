@@ -212,8 +212,8 @@ std::string summary_text(std::vector<Record> records, const Sweep& sweep) {
   }
   std::string out;
   for (const Table& view : views) {
+    if (!out.empty()) out += "\n";
     out += prints_to_terminal() ? terminal(view, standard_output_style()) : markdown(view);
-    out += "\n";
   }
   const auto is_noted = [&](const Record& r) {
     const std::string begin = std::string(r.cell->method) + ": ";

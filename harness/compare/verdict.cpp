@@ -214,7 +214,7 @@ std::string legend_of(const Comparison& c, const Verdict& v) {
   if (c.has_strata) {
     out += "; runs of a sequence are independent (rank sums; compare --paired pairs equal names)";
   } else if (c.sequences < c.groups) {
-    out += "; other sequences need --over sequences, 6 or more";
+    out += "; other sequences: --over sequences";
   }
   return out;
 }
