@@ -103,8 +103,7 @@ class Server {
   /// it was starting.
   void wait_for_start() {
     constexpr useconds_t kBetweenChecks = 200;  // [us]
-    const ssize_t sent = send(tree_.input(), unsent_.data(), sizeof(MessageHeader), MSG_NOSIGNAL);
-    if (sent > 0) unsent_.erase(0, static_cast<std::size_t>(sent));
+    send_some(sizeof(MessageHeader));
     int unread = 0;
     while (ioctl(tree_.input(), SIOCOUTQ, &unread) == 0 && unread > 0 && !tree_.has_ended()) {
       read_available(tree_.errors(), *errors_);
@@ -115,18 +114,23 @@ class Server {
   /// Sends and receives until at least `size` bytes are here.
   void receive(std::size_t size) {
     while (received_.size() < size) {
-      std::array<pollfd, 3> files{{{tree_.output(), POLLIN, 0},
+      std::array<pollfd, 4> files{{{tree_.output(), POLLIN, 0},
                                    {tree_.errors(), POLLIN, 0},
-                                   {unsent_.empty() ? -1 : tree_.input(), POLLOUT, 0}}};
+                                   {unsent_.empty() ? -1 : tree_.input(), POLLOUT, 0},
+                                   {tree_.descriptor(), POLLIN, 0}}};
       if (poll(files.data(), files.size(), -1) < 0) continue;
-      if (files[2].revents != 0) send_some();
+      if (files[2].revents != 0) send_some(unsent_.size());
       if (files[1].revents != 0) read_available(tree_.errors(), *errors_);
-      if (files[0].revents != 0 && !receive_some()) throw_end();
+      if (files[0].revents != 0) {
+        if (!receive_some()) throw_end();
+      } else if (files[3].revents != 0 && !has_output()) {
+        throw_end();  // what it has started can hold its output open
+      }
     }
   }
 
-  void send_some() {
-    const ssize_t sent = send(tree_.input(), unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
+  void send_some(std::size_t most) {
+    const ssize_t sent = send(tree_.input(), unsent_.data(), most, MSG_NOSIGNAL);
     if (sent > 0) unsent_.erase(0, static_cast<std::size_t>(sent));
     if (sent < 0 && errno != EAGAIN && errno != EINTR) unsent_.clear();  // its end is read next
   }
@@ -139,8 +143,7 @@ class Server {
   }
 
   [[noreturn]] void throw_end() {
-    const ProgramEnd end = tree_.wait(*errors_);
-    throw std::runtime_error("the program " + text(end) + " before its answer");
+    throw std::runtime_error("the program " + text(tree_.wait(*errors_)) + " before its answer");
   }
 
   RunningProgram tree_;

@@ -111,10 +111,11 @@ class Programs(unittest.TestCase):
             self.assertEqual(running(*(f"sleep 873{i}" for i in range(1, 5))), set())
 
     def test_processes_of_a_server_that_ends_are_killed(self):
-        cells = self.sweep(["raw", served("forks")], "repeats: 4\n")
-        self.assertEqual(len(cells), 8)
-        self.assertTrue(any("exited with code 3" in cell["why"] for cell in cells))
-        self.assertEqual(running("sleep 8761"), set())
+        for option in ("", "--no-sandbox"):
+            cells = self.sweep(["raw", served("forks")], "repeats: 4\nlimits: {seconds: 20}\n", "--fresh " + option)
+            self.assertEqual(len(cells), 8)
+            self.assertTrue(any("exited with code 3" in cell["why"] for cell in cells))
+            self.assertEqual(running("sleep 8761"), set())
 
     def test_a_fork_bomb_is_ended(self):
         self.write("bomb.sh", "while :; do sleep 8771 & done\n")
