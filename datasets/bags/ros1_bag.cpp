@@ -105,8 +105,7 @@ class Ros1Reader {
     }
     if (size > kMaxRos1Chunk) throw DamagedRecord("has a chunk that is too large");
     const Codec codec = compression == "bz2" ? Codec::bzip2 : Codec::lz4;
-    expanded_ = decompress(codec, data, size);
-    return expanded_;
+    return expanded_ = decompress(codec, data, size);
   }
 
   void records(std::string_view chunk) {

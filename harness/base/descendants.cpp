@@ -119,8 +119,7 @@ class MemoryFiles {
 
 /// Shared memory of a process, with mapped files in memory [bytes].
 std::int64_t shared_memory(const std::string& process) {
-  const std::string status = read_system_file("/proc/" + process + "/status");
-  return memory_in(status, "RssShmem:").value_or(0);
+  return memory_in(read_system_file("/proc/" + process + "/status"), "RssShmem:").value_or(0);
 }
 
 /// Children of the calling thread, but those of `kept`.

@@ -115,8 +115,7 @@ int print_stored(const EvalArguments& a, const Evaluations& stored) {
   for (const std::string& note : stored.notes) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
   }
-  const std::string report = run_report(stored.records, terminal_style(a));
-  write_file(a.out, printable(report + stored.summary));
+  write_file(a.out, printable(run_report(stored.records, terminal_style(a)) + stored.summary));
   return stored.are_ok ? kExitOk : kExitSomeCellsFailed;
 }
 
@@ -136,13 +135,16 @@ int eval(const EvalArguments& a, const Source& source) {
   if (!a.store.empty()) return print_stored(a, all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all.results));
   write_figures(a, all);
-  write_file(a.out,
-             a.json  ? json(all.results)
-             : a.csv ? csv(all.records)
-                     : printable(result_text(a, all)));
-  const bool all_ok = std::ranges::all_of(
-      all.results, [](const EvaluationResult& result) { return status_of(result).first == "ok"; });
-  return all_ok ? kExitOk : kExitSomeCellsFailed;
+  const std::string text = a.json  ? json(all.results)
+                           : a.csv ? csv(all.records)
+                                   : printable(result_text(a, all));
+  if (is_dash(a.per_pose) && is_dash(a.out)) {
+    fmt::print(stderr, "{}", text);  // rows are on standard output
+  } else {
+    write_file(a.out, text);
+  }
+  const auto is_ok = [](const EvaluationResult& each) { return status_of(each).first == "ok"; };
+  return std::ranges::all_of(all.results, is_ok) ? kExitOk : kExitSomeCellsFailed;
 }
 
 }  // namespace

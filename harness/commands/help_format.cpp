@@ -53,8 +53,7 @@ std::string placeholder(const CLI::Option& option) {
 
 /// Without the brackets that CLI11 prints around lists.
 std::string default_text(const std::string& text) {
-  const bool is_list = text.starts_with('[') && text.ends_with(']');
-  return is_list ? text.substr(1, text.size() - 2) : text;
+  return text.starts_with('[') && text.ends_with(']') ? text.substr(1, text.size() - 2) : text;
 }
 
 constexpr std::size_t kWidest = 100;
@@ -134,8 +133,7 @@ class HelpFormatter final : public CLI::Formatter {
                          bool is_positional,
                          std::vector<const CLI::Option*> options) const override {
     const bool follows = !is_positional && group != "Options";
-    const std::string out = CLI::Formatter::make_group(group, is_positional, options);
-    return out.substr(follows ? 1 : 0);
+    return CLI::Formatter::make_group(group, is_positional, options).substr(follows ? 1 : 0);
   }
   std::string make_subcommand(const CLI::App* command) const override {
     return entry(command->get_name(), command->get_description());

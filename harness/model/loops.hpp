@@ -50,7 +50,7 @@ std::vector<std::pair<std::string, std::string>> ledger_row(const LoopsResult& r
 std::string csv(const LoopsResult& result, int digits = 0);
 
 /// For the report of a sweep: the sentence, then the lines of csv(); only the reason if there is no
-/// ledger, or for more than 200 closures; empty without any. O(closures keyframes).
+/// ledger, or it would take too long; empty without closures. O(closures keyframes).
 std::string stored_ledger(const Problem& problem);
 
 }  // namespace loopbench::harness

@@ -94,8 +94,7 @@ std::vector<Record> shown(const std::vector<Record>& records,
 /// The order of the comparison; the last rows are left out, but not the baseline.
 void sort_lines(Table& out, const Comparison& c) {
   const auto place = [&](const auto& line) {
-    const auto found = std::ranges::find(c.methods, line[0].text, &MethodVerdict::method);
-    return found - c.methods.begin();
+    return std::ranges::find(c.methods, line[0].text, &MethodVerdict::method) - c.methods.begin();
   };
   std::ranges::stable_sort(out.lines, {}, place);
   if (out.lines.size() <= kMostMethods) return;
