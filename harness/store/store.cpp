@@ -211,12 +211,14 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
     return nothing;
   }
   Transaction transaction(*database_);
+  repair_structure(*database_, false);
   remove_damaged_rows(*database_, kRunTable);
   if (damaged_rows(*database_, kProvenanceTable).contains(key_of_provenance(provenance_))) {
     write_provenance(*database_, provenance_);  // so that its cells need not be recomputed
   }
   std::vector<StoredCell> stored = read_stored_cells(*database_);
   const std::vector<std::string> damaged = remove_damaged(*database_, stored);
+  if (!damaged.empty()) repair_structure(*database_, true);
   Resumed out = match(*database_, stored, keys_, all, planned, retry);
   out.damaged = damaged;
   const bool is_described = update_description();

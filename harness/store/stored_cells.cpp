@@ -11,6 +11,18 @@
 namespace loopbench::harness {
 namespace {
 
+/// Whether searches by key or position find all rows of the tables, each in parentheses: hashes
+/// protect only what is found.
+bool has_sound_structure(Database& database, const std::vector<std::string>& tables) {
+  return std::ranges::all_of(tables, [&](const std::string& table) {
+    Statement row = database.prepare("PRAGMA integrity_check" + table);
+    return row.step() && row.text() == "ok";
+  });
+}
+
+const std::vector<std::string> kSearched{
+    "(run)", "(provenance)", "(input)", "(sequence)", "(cell)"};
+
 void require_none_damaged(Database& database, const std::vector<StoredCell>& cells) {
   const auto damaged = std::ranges::count(cells, false, &StoredCell::intact);
   if (damaged > 0) {
@@ -19,8 +31,8 @@ void require_none_damaged(Database& database, const std::vector<StoredCell>& cel
                   label_of(*std::ranges::find(cells, false, &StoredCell::intact)) +
                       (damaged == 1 ? " is" : " and " + more + " more are"));
   }
-  if (written_cells(database) != std::ssize(cells)) {
-    throw_damaged(database.file(), "its table of cells is");
+  if (written_cells(database) != std::ssize(cells) || !has_sound_structure(database, kSearched)) {
+    throw_damaged(database.file(), "the structure of its tables is");
   }
 }
 
@@ -172,6 +184,14 @@ void require_intact(Database& database) {
   std::vector<StoredCell> cells = read_stored_cells(database);
   check_traces(database, cells);
   require_none_damaged(database, cells);
+}
+
+void repair_structure(Database& database, bool all) {
+  const std::vector<std::string> tables = all ? std::vector<std::string>{""} : kSearched;
+  if (has_sound_structure(database, tables)) return;
+  database.execute("REINDEX");
+  if (has_sound_structure(database, tables)) return;
+  throw InputError(database.file() + ": is damaged; " + kRecoverAdvice);
 }
 
 void remove_cell(Database& database, std::int64_t id) {
