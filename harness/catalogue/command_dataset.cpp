@@ -272,9 +272,7 @@ Limits loading_limits(const Choice& dataset, Limits of_cells) {
   if (dataset.name != kCommand) return of_cells;
   const auto options = with(CommandDatasetOptions{}, dataset.options);
   if (options.seconds > 0.0) of_cells.seconds = options.seconds;
-  if (options.memory > 0.0) {
-    of_cells.memory = static_cast<std::int64_t>(options.memory * kMebibyte);
-  }
+  if (options.memory > 0.0) of_cells.memory = static_cast<std::int64_t>(options.memory * kMebibyte);
   return of_cells;
 }
 

@@ -133,9 +133,7 @@ std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation
                                            const CommandOptions& program) {
   const int ddof = evaluation.protocol.ddof;
   const std::size_t pairs = evaluation.reference.size();
-  if (program.serve.empty()) {
-    return parse_scores(answer_of_run(evaluation, program), ddof, pairs);
-  }
+  if (program.serve.empty()) return parse_scores(answer_of_run(evaluation, program), ddof, pairs);
   std::string errors;
   try {
     const auto bytes = [&](std::uint64_t number) {

@@ -176,9 +176,7 @@ ResultMetadata parse_metadata(const std::string& text) {
     }
     const nlohmann::json none = nlohmann::json::object();
     const nlohmann::json counts = json.value("counts", none);  // items() refers to it
-    for (const auto& [name, value] : counts.items()) {
-      out.report.count(name, value.get<double>());
-    }
+    for (const auto& [name, value] : counts.items()) out.report.count(name, value.get<double>());
     const nlohmann::json phases = json.value("phases", none);
     for (const auto& [name, value] : phases.items()) {
       out.report.phases.push_back({name, value.get<double>()});

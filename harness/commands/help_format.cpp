@@ -74,9 +74,7 @@ std::string paragraphs(const std::string& text) {
   std::string out;
   for (std::string line; std::getline(in, line);) {
     const bool is_example = line.starts_with(' ');
-    for (const std::string& part : wrapped(line, is_example ? 0 : help_width())) {
-      out += part + "\n";
-    }
+    for (const std::string& part : wrapped(line, is_example ? 0 : help_width())) out += part + "\n";
   }
   return out;
 }

@@ -218,9 +218,7 @@ int run_config(const RunArguments& arguments, const Source& source) {
   }
   std::map<std::string, std::string> facts = provenance(source, planned.sweep, planned.known);
   if (arguments.save_trajectories) set_estimate_folder(planned.out / "trajectories");
-  if (uses_programs(planned.sweep)) {
-    facts["sandbox"] = is_sandboxed() ? "bubblewrap" : "none";
-  }
+  if (uses_programs(planned.sweep)) facts["sandbox"] = is_sandboxed() ? "bubblewrap" : "none";
   CellKeys keys(planned.sweep, planned.known, planned.root, build_id(source.code));
   std::optional<Store> store(std::in_place, planned.store(), keys, facts, arguments.fresh);
   if (planned.shard) {

@@ -152,9 +152,7 @@ int dry_run(const Sweep& sweep,
   const std::unique_ptr<const ScratchFolder> scratch = scratch_for_programs(sweep);
   const std::vector<std::string> reasons = bad_inputs(sweep, cells, catalogue, root);
   if (reasons.empty()) return kExitOk;
-  for (const std::string& reason : reasons) {
-    print_error("loopbench: {}\n", printable(reason));
-  }
+  for (const std::string& reason : reasons) print_error("loopbench: {}\n", printable(reason));
   print_error("loopbench: {} of the sequences above cannot be loaded; their cells would fail\n",
               reasons.size());
   return kExitBadInput;

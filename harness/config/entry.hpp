@@ -72,9 +72,7 @@ inline ConfigEntry read_entry(const YamlNode& node,
 inline Setting parse_setting(const std::string& text, const std::string& where) {
   const Place place(where);
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) {
-    throw place.error("found '" + text + "', expected OPTION=VALUE");
-  }
+  if (equals == std::string::npos) throw place.error("found '" + text + "', expected OPTION=VALUE");
   const std::string value = text.substr(equals + 1);
   const YamlNode node = parse_yaml(value, where);
   if (node.type != YamlNode::Type::scalar) {

@@ -186,9 +186,7 @@ std::vector<GridPoint> expand_paths(const GridPoint& point,
   if (searched == paths.end()) return {start};
   const Setting pattern = **searched;
   const std::vector<std::string> files = matching_files(pattern.text, folders);
-  if (files.empty()) {
-    throw pattern.place.error(pattern.name + ": no file matches " + pattern.text);
-  }
+  if (files.empty()) throw pattern.place.error(pattern.name + ": no file matches " + pattern.text);
   std::vector<GridPoint> out;
   for (const std::string& match : files) {
     GridPoint& next = out.emplace_back(start);

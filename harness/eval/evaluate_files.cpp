@@ -73,9 +73,7 @@ std::string why_low_coverage(const EvaluationResult& own, double best) {
 void check_coverage(std::vector<EvaluatedFile>& all) {
   for (std::size_t p = 0; p < all.front().protocols.size(); ++p) {
     double most = 0.0;
-    for (const EvaluatedFile& file : all) {
-      most = std::max(most, file.protocols[p].coverage.least());
-    }
+    for (const EvaluatedFile& file : all) most = std::max(most, file.protocols[p].coverage.least());
     for (EvaluatedFile& file : all) {
       EvaluationResult& own = file.protocols[p];
       if (!own.why_failed.empty()) continue;

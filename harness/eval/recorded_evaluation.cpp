@@ -155,9 +155,7 @@ struct PairEvaluation {
         });
     if (arguments.pose_errors || !arguments.per_pose.empty())
       own.poses = metrics::pose_errors(evaluation);
-    if (!arguments.plot.empty()) {
-      own.drawn = drawn_evaluation(reference.poses, evaluation);
-    }
+    if (!arguments.plot.empty()) own.drawn = drawn_evaluation(reference.poses, evaluation);
     add_scores(out.result, row, evaluation, sweep, files.catalogue, is_large);
     if (!own.poses.empty()) own.pose_values = pose_values(out.result, row);
     if (files.arguments.keeps_traces() && row.protocol == 0) {
@@ -247,9 +245,7 @@ EvaluatedFile evaluate_poses(const Cell& cell,
                              has_stamps},
                             files.sweep.protocols);
       });
-  if (!run.common.empty()) {
-    metadata.notes.push_back(common_times_note(estimate.poses, run.common));
-  }
+  if (!run.common.empty()) metadata.notes.push_back(common_times_note(estimate.poses, run.common));
   PairEvaluation evaluation{files, reference.read, estimate, out, run.common};
   for (std::size_t p = 0; p < out.protocols.size(); ++p) evaluation.evaluate(p);
   for (const RecordedFile* file : {&reference.read, &estimate}) {

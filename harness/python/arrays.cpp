@@ -16,9 +16,7 @@ constexpr py::ssize_t kEdgeColumns = 46;
 
 /// Throws InputError unless the array has that many columns.
 std::size_t rows_in(const Array& rows, py::ssize_t columns, const std::string& name) {
-  if (rows.ndim() == 2 && rows.shape(1) == columns) {
-    return static_cast<std::size_t>(rows.shape(0));
-  }
+  if (rows.ndim() == 2 && rows.shape(1) == columns) return static_cast<std::size_t>(rows.shape(0));
   std::string shape;
   for (py::ssize_t i = 0; i < rows.ndim(); ++i) {
     shape += (i == 0 ? "" : ", ") + std::to_string(rows.shape(i));

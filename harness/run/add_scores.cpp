@@ -56,9 +56,7 @@ std::vector<metrics::Score> scores_of_metric(const metrics::MetricEntry& metric,
                                              const metrics::Evaluation& evaluation,
                                              const Sweep& sweep,
                                              const Catalogue& catalogue) {
-  if (metric.name == kCommand) {
-    return command_scores(evaluation, command_options(options, sweep));
-  }
+  if (metric.name == kCommand) return command_scores(evaluation, command_options(options, sweep));
   if (plugin_version(catalogue, "metric", metric.name).empty()) {
     return metric.score(evaluation, options);
   }

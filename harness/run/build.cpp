@@ -119,9 +119,7 @@ std::map<std::string, std::string> provenance(const Source& source,
   out["kernel"] = kernel_name();
   out["seeds"] = seeds(sweep, catalogue);
   std::string plugins;
-  for (const auto& [entry, version] : catalogue.versions) {
-    plugins += entry + ": " + version + "\n";
-  }
+  for (const auto& [entry, version] : catalogue.versions) plugins += entry + ": " + version + "\n";
   out["plugins"] = plugins;
   return out;
 }
