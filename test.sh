@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ./test.sh            setup, optimised build, tests
-# ./test.sh all        also projects outside the tree, benchmarks, studies, commands of pages, LaTeX, style, tests under
-#                      ASan and UBSan, and threaded code under TSan; CI runs that
+# ./test.sh all        also projects outside the tree, benchmarks, studies, commands of pages, configs/images.yaml, the
+#                      fuzz corpus, LaTeX, style, tests under ASan and UBSan, and threaded code under TSan; CI runs that
 # ./test.sh NAME...    only these (lint, package, slurm, colcon, or a preset: release, debug, tsan, gcc)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -78,7 +78,7 @@ for preset in "$@"; do
       tests/documented_runs.sh $loopbench . $checked
       tests/latex.sh $loopbench $checked
     else
-      echo "skipped: commands of pages, configs/images.yaml, LaTeX (./test.sh all)"
+      echo "skipped: commands of pages, configs/images.yaml, fuzz corpus, LaTeX (./test.sh all)"
     fi
   fi
 done

@@ -161,7 +161,8 @@ void declare_output(CLI::App& command, EvalArguments& a) {
   add(command,
       "--per-pose FILE",
       a.per_pose,
-      "CSV file for the error of every pose, and per-pose values of metrics; - is standard output");
+      "CSV file for the error of every pose, and per-pose values of metrics; - is standard output, "
+      "with the results on standard error");
   add(command,
       "--plot,--save_plot FILE",
       a.plot,

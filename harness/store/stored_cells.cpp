@@ -11,8 +11,8 @@
 namespace loopbench::harness {
 namespace {
 
-/// Whether searches by key or position find all rows of the tables, each in parentheses: hashes
-/// protect only what is found.
+/// Whether SQLite finds no error in these tables (names in parentheses, or "" for all). Hashes
+/// protect only rows that are found, and a damaged index hides some.
 bool has_sound_structure(Database& database, const std::vector<std::string>& tables) {
   return std::ranges::all_of(tables, [&](const std::string& table) {
     Statement row = database.prepare("PRAGMA integrity_check" + table);

@@ -42,9 +42,9 @@ void check_traces(Database& database, std::vector<StoredCell>& cells);
 /// Throws InputError unless all rows of all cells are intact. O(bytes).
 void require_intact(Database& database);
 
-/// Makes the indices again if a search would miss rows: of cells and what describes them, or of
-/// `all` tables. Throws InputError if that is not enough. Call within a transaction. O(cells
-/// log(cells)), or O(bytes).
+/// Rebuilds the indices if they miss rows: those of cells and their descriptions, or of `all`
+/// tables. Throws InputError if that is not enough. Call within a transaction.
+/// O(cells log(cells)), or O(bytes).
 void repair_structure(Database& database, bool all);
 
 /// Removes the cell with that id from every table.
