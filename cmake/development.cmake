@@ -14,7 +14,7 @@ target_link_options(loopbench_plugin INTERFACE LINKER:-Bsymbolic)
 target_sources(loopbench_plugin INTERFACE
   FILE_SET umbrella TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include
   FILES ${PROJECT_SOURCE_DIR}/include/loopbench/plugin.hpp
-  FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${PROJECT_SOURCE_DIR}/harness/catalogue/plugin.hpp)
+  FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${PROJECT_SOURCE_DIR}/harness/sweep/catalogue/plugin.hpp)
 set_target_properties(loopbench_library PROPERTIES EXPORT_NAME loopbench VERIFY_INTERFACE_HEADER_SETS ON)
 set_target_properties(loopbench_plugin PROPERTIES EXPORT_NAME plugin VERIFY_INTERFACE_HEADER_SETS ON)
 # In this tree, links make <loopbench/datasets/...> the same files.

@@ -10,7 +10,7 @@ foreach(file IN LISTS FILES)
   math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE ${OUT} "// Written by cmake/embed.cmake.
-#include \"harness/report/assets.hpp\"
+#include \"harness/answers/report/assets.hpp\"
 
 namespace loopbench::harness {
 namespace {

@@ -1,4 +1,4 @@
-# The OpenCV modules used by datasets/rgbd. Without find_package: OpenCVConfig.cmake is only in
+# The OpenCV modules used by datasets/images. Without find_package: OpenCVConfig.cmake is only in
 # libopencv-dev, which depends on every module and its graphics stack. Without OpenCV the program
 # is built without the image front end (exit code 4 if a config needs it).
 find_path(LOOPBENCH_STB_INCLUDE stb/stb_image.h)
@@ -10,8 +10,8 @@ if(LOOPBENCH_OPENCV_INCLUDE AND LOOPBENCH_STB_INCLUDE)
     find_library(LOOPBENCH_OPENCV_${part} opencv_${part} REQUIRED)
     target_link_libraries(loopbench_opencv INTERFACE ${LOOPBENCH_OPENCV_${part}})
   endforeach()
-  set(loopbench_rgbd_except "/without_opencv\\.cpp$")
+  set(loopbench_images_except "/without_opencv\\.cpp$")
 else()
   message(STATUS "OpenCV or stb was not found: building without the image front end")
-  set(loopbench_rgbd_except "/(opencv|find_features|match_exhaustive|pose_by_ransac|read_image)\\.cpp$")
+  set(loopbench_images_except "/(opencv|find_features|match_exhaustive|pose_by_ransac|read_image)\\.cpp$")
 endif()

@@ -44,7 +44,7 @@ if(NOT Python_FOUND OR NOT pybind11_FOUND)
 endif()
 pybind11_add_module(loopbench_python MODULE NO_EXTRAS
   harness/python/module.cpp harness/python/problems.cpp harness/python/arrays.cpp)
-target_link_libraries(loopbench_python PRIVATE loopbench_warnings loopbench::harness)
+target_link_libraries(loopbench_python PRIVATE loopbench_warnings loopbench::commands)
 set_target_properties(loopbench_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${loopbench_package})
 install(TARGETS loopbench_python DESTINATION ${loopbench_site} COMPONENT python)
 install(TARGETS loopbench_python DESTINATION loopbench COMPONENT wheel EXCLUDE_FROM_ALL)

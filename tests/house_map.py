@@ -16,17 +16,18 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PICTURE = ROOT / "tests/house_map.svg"
 PARTS = ["datasets", "methods", "metrics", "harness"]
 OF_THEIR_OWN = ["datasets/core"]
+WINGS = ["sweep", "answers"]
 COLOURS = {"datasets": "#cfe3f5", "methods": "#fbe0c3", "metrics": "#d9efd3", "harness": "#e6e0f2"}
 WIDTH, BOX_WIDTH, BOX_HEIGHT, ROW_HEIGHT = 960, 130, 44, 78
 
 
 def folder_of(path):
-    """The box of a file, for example `harness/run` or `datasets`."""
+    """The box of a file, for example `harness/sweep/run` or `datasets`."""
     for folder in OF_THEIR_OWN:
         if path.startswith(folder + "/"):
             return folder
     part, *rest = path.split("/")
-    return f"{part}/{rest[0]}" if part == "harness" else part
+    return "/".join([part, *rest[:2 if rest[0] in WINGS else 1]]) if part == "harness" else part
 
 
 def read_tree():

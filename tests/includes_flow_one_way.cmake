@@ -17,11 +17,11 @@ set(order
   "datasets/dataset datasets/formats"
   "datasets/derive"
   "datasets/simulated"
-  "datasets/rgbd/images"
-  "datasets/rgbd/features"
-  "datasets/rgbd/tracking"
-  "datasets/rgbd/dense datasets/rgbd/loops datasets/rgbd/folder datasets/rgbd/render"
-  "datasets/rgbd"
+  "datasets/images/frames"
+  "datasets/images/features"
+  "datasets/images/tracking"
+  "datasets/images/dense datasets/images/loops datasets/images/folder datasets/images/render"
+  "datasets/images"
   "datasets"
 
   "methods/report"
@@ -48,17 +48,19 @@ set(order
   "metrics/doctor"
   "metrics"
 
-  "harness/base"
-  "harness/model"
-  "harness/catalogue"
-  "harness/config harness/run"
-  "harness/store"
-  "harness/compare"
-  "harness/gate"
-  "harness/tables"
-  "harness/report"
-  "harness/eval"
-  "harness/commands harness/python"
+  "harness/sweep/text"
+  "harness/sweep/process"
+  "harness/sweep/model"
+  "harness/sweep/catalogue"
+  "harness/sweep/config harness/sweep/run"
+  "harness/sweep/store"
+  "harness/answers/compare"
+  "harness/answers/gate"
+  "harness/answers/tables"
+  "harness/answers/report"
+  "harness/commands/files"
+  "harness/commands"
+  "harness/python"
 )
 
 # Only files that match folder_<library> may include the headers that match header_<library>.
@@ -66,21 +68,21 @@ set(libraries ceres yaml sqlite re2 xxhash cli json opencv stb compression pybin
 set(header_ceres "ceres/")
 set(folder_ceres "methods/solvers/")
 set(header_yaml "yaml-cpp/")
-set(folder_yaml "harness/config/")
+set(folder_yaml "harness/sweep/config/")
 set(header_sqlite "sqlite3")
-set(folder_sqlite "harness/store/|datasets/bags/sqlite_file\\.cpp")  # stores, and files of others
+set(folder_sqlite "harness/sweep/store/|datasets/bags/sqlite_file\\.cpp")  # stores, and files of others
 set(header_re2 "re2/")
-set(folder_re2 "harness/base/pattern\\.")
+set(folder_re2 "harness/sweep/text/pattern\\.")
 set(header_xxhash "xxhash")
-set(folder_xxhash "harness/base/hash\\.cpp")
+set(folder_xxhash "harness/sweep/text/hash\\.cpp")
 set(header_cli "CLI/")
 set(folder_cli "harness/commands/")
 set(header_json "nlohmann/")
-set(folder_json "harness/(catalogue|compare|gate|tables|report|eval|commands)/")
+set(folder_json "harness/(sweep/catalogue|answers|commands)/")
 set(header_opencv "opencv2/")
-set(folder_opencv "datasets/rgbd/.*\\.cpp")
+set(folder_opencv "datasets/images/.*\\.cpp")
 set(header_stb "stb/")
-set(folder_stb "datasets/rgbd/.*\\.cpp")
+set(folder_stb "datasets/images/.*\\.cpp")
 set(header_compression "(zlib|bzlib|zstd|lz4frame)\\.h")
 set(folder_compression "datasets/compressed/(de)?compress\\.cpp")
 set(header_pybind11 "pybind11/")

@@ -4,15 +4,15 @@
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/counted.hpp"
-#include "harness/base/print_error.hpp"
-#include "harness/base/printable.hpp"
-#include "harness/base/write_file.hpp"
+#include "harness/answers/gate/gate.hpp"
+#include "harness/answers/tables/gate_table.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/gate/gate.hpp"
-#include "harness/store/open.hpp"
-#include "harness/tables/gate_table.hpp"
+#include "harness/sweep/process/write_file.hpp"
+#include "harness/sweep/store/open.hpp"
+#include "harness/sweep/text/counted.hpp"
+#include "harness/sweep/text/print_error.hpp"
+#include "harness/sweep/text/printable.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "datasets/core/fields.hpp"
-#include "harness/base/suggest.hpp"
+#include "harness/sweep/text/suggest.hpp"
 
 namespace loopbench::harness {
 

@@ -1,7 +1,7 @@
 /// Subcommands of the program. Each registers itself with the parser and sets the exit code.
 #pragma once
 
-#include "harness/run/build.hpp"
+#include "harness/sweep/run/build.hpp"
 
 namespace CLI {
 class App;

@@ -1,4 +1,4 @@
-#include "harness/compare/compare.hpp"
+#include "harness/answers/compare/compare.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,16 +10,16 @@
 #include <regex>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/print_error.hpp"
-#include "harness/base/printable.hpp"
-#include "harness/catalogue/scratch.hpp"
+#include "harness/answers/compare/assertion.hpp"
+#include "harness/answers/tables/comparison.hpp"
+#include "harness/answers/tables/store_tables.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
-#include "harness/compare/assertion.hpp"
-#include "harness/store/merge.hpp"
-#include "harness/tables/comparison.hpp"
-#include "harness/tables/store_tables.hpp"
+#include "harness/sweep/catalogue/scratch.hpp"
+#include "harness/sweep/store/merge.hpp"
+#include "harness/sweep/text/print_error.hpp"
+#include "harness/sweep/text/printable.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "harness/catalogue/catalogue.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/help_format.hpp"
+#include "harness/sweep/catalogue/catalogue.hpp"
 #include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {

@@ -9,18 +9,18 @@
 
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/replace_file.hpp"
-#include "harness/base/counted.hpp"
-#include "harness/base/printable.hpp"
-#include "harness/base/write_file.hpp"
+#include "harness/answers/tables/benchmark_json.hpp"
+#include "harness/answers/tables/record_csv.hpp"
+#include "harness/answers/tables/store_tables.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
-#include "harness/run/estimate_files.hpp"
-#include "harness/store/open.hpp"
-#include "harness/store/read.hpp"
-#include "harness/tables/benchmark_json.hpp"
-#include "harness/tables/record_csv.hpp"
-#include "harness/tables/store_tables.hpp"
+#include "harness/sweep/process/write_file.hpp"
+#include "harness/sweep/run/estimate_files.hpp"
+#include "harness/sweep/store/open.hpp"
+#include "harness/sweep/store/read.hpp"
+#include "harness/sweep/text/counted.hpp"
+#include "harness/sweep/text/printable.hpp"
 
 namespace loopbench::harness {
 namespace {

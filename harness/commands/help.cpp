@@ -4,9 +4,9 @@
 #include <map>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/suggest.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/help_format.hpp"
+#include "harness/sweep/text/suggest.hpp"
 
 namespace loopbench::harness {
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "harness/base/wrap.hpp"
 #include "harness/commands/standard_output.hpp"
+#include "harness/sweep/text/wrap.hpp"
 
 namespace loopbench::harness {
 

@@ -5,7 +5,7 @@
 #include <ctime>
 
 #include "harness/commands/commands.hpp"
-#include "harness/run/isolated_sweep.hpp"
+#include "harness/sweep/run/isolated_sweep.hpp"
 
 namespace loopbench::harness {
 

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "harness/base/suggest.hpp"
-#include "harness/base/wrap.hpp"
-#include "harness/catalogue/catalogue.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/standard_output.hpp"
-#include "harness/config/keys.hpp"
+#include "harness/sweep/catalogue/catalogue.hpp"
+#include "harness/sweep/config/keys.hpp"
+#include "harness/sweep/text/suggest.hpp"
+#include "harness/sweep/text/wrap.hpp"
 #include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {

@@ -17,13 +17,13 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
-#include "harness/base/print_error.hpp"
-#include "harness/base/printable.hpp"
-#include "harness/base/suggest.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/help_format.hpp"
 #include "harness/commands/standard_output.hpp"
-#include "harness/run/build.hpp"
+#include "harness/sweep/run/build.hpp"
+#include "harness/sweep/text/print_error.hpp"
+#include "harness/sweep/text/printable.hpp"
+#include "harness/sweep/text/suggest.hpp"
 
 // Source of the program; defined in files that the build links only into the executable, so that a
 // commit does not relink anything else.

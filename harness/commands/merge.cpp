@@ -1,14 +1,14 @@
-#include "harness/store/merge.hpp"
+#include "harness/sweep/store/merge.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 
-#include "harness/base/counted.hpp"
-#include "harness/base/printable.hpp"
-#include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/sweep/process/write_file.hpp"
+#include "harness/sweep/text/counted.hpp"
+#include "harness/sweep/text/printable.hpp"
 
 namespace loopbench::harness {
 namespace {

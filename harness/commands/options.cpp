@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "harness/base/printable.hpp"
 #include "harness/commands/checks.hpp"
+#include "harness/sweep/text/printable.hpp"
 #include "metrics/protocols/protocol.hpp"
 
 namespace loopbench::harness {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "harness/config/entry.hpp"
-#include "harness/eval/correct.hpp"
-#include "harness/eval/named_trajectory.hpp"
-#include "harness/report/draw.hpp"
+#include "harness/answers/report/draw.hpp"
+#include "harness/commands/correct/correct.hpp"
+#include "harness/commands/files/named_trajectory.hpp"
+#include "harness/sweep/config/entry.hpp"
 
 namespace loopbench::harness {
 

@@ -6,19 +6,19 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/printable.hpp"
-#include "harness/base/suggest.hpp"
-#include "harness/base/write_file.hpp"
+#include "harness/answers/report/data.hpp"
+#include "harness/answers/report/draw.hpp"
+#include "harness/answers/report/report.hpp"
+#include "harness/answers/tables/comparison.hpp"
+#include "harness/answers/tables/growth.hpp"
+#include "harness/answers/tables/store_provenance.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/options.hpp"
-#include "harness/model/where.hpp"
-#include "harness/report/data.hpp"
-#include "harness/report/draw.hpp"
-#include "harness/report/report.hpp"
-#include "harness/tables/comparison.hpp"
-#include "harness/tables/growth.hpp"
-#include "harness/tables/store_provenance.hpp"
+#include "harness/sweep/model/where.hpp"
+#include "harness/sweep/process/write_file.hpp"
+#include "harness/sweep/text/printable.hpp"
+#include "harness/sweep/text/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {

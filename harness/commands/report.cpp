@@ -1,15 +1,15 @@
-#include "harness/report/report.hpp"
+#include "harness/answers/report/report.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 
-#include "harness/base/print_error.hpp"
-#include "harness/base/printable.hpp"
-#include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/store/open.hpp"
+#include "harness/sweep/process/write_file.hpp"
+#include "harness/sweep/store/open.hpp"
+#include "harness/sweep/text/print_error.hpp"
+#include "harness/sweep/text/printable.hpp"
 
 namespace loopbench::harness {
 

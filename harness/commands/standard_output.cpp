@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "harness/base/wrap.hpp"
+#include "harness/sweep/text/wrap.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "harness/tables/table.hpp"
+#include "harness/answers/tables/table.hpp"
 
 namespace loopbench::harness {
 

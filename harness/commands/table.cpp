@@ -6,15 +6,15 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
+#include "harness/answers/compare/derived.hpp"
+#include "harness/answers/tables/growth.hpp"
+#include "harness/answers/tables/store_tables.hpp"
+#include "harness/answers/tables/success.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
-#include "harness/compare/derived.hpp"
-#include "harness/model/where.hpp"
-#include "harness/store/read.hpp"
-#include "harness/tables/growth.hpp"
-#include "harness/tables/store_tables.hpp"
-#include "harness/tables/success.hpp"
+#include "harness/sweep/model/where.hpp"
+#include "harness/sweep/store/read.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -6,13 +6,13 @@
 #include <map>
 #include <regex>
 
-#include "harness/base/print_error.hpp"
-#include "harness/base/write_file.hpp"
+#include "harness/answers/tables/store_provenance.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/standard_output.hpp"
-#include "harness/run/build.hpp"
-#include "harness/store/open.hpp"
-#include "harness/tables/store_provenance.hpp"
+#include "harness/sweep/process/write_file.hpp"
+#include "harness/sweep/run/build.hpp"
+#include "harness/sweep/store/open.hpp"
+#include "harness/sweep/text/print_error.hpp"
 
 namespace loopbench::harness {
 

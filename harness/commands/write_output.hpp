@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/tables/store_provenance.hpp"
-#include "harness/tables/table.hpp"
+#include "harness/answers/tables/store_provenance.hpp"
+#include "harness/answers/tables/table.hpp"
 
 namespace loopbench::harness {
 

@@ -1,6 +1,6 @@
 /// Conversion between numpy arrays and core types. Poses are rows of 8 numbers, stamp x y z qx qy
-/// qz qw [s, m], edges rows of 46, as in harness/catalogue/message.hpp. A pose without rotation has
-/// four zeros, and is left to check(Trajectory).
+/// qz qw [s, m], edges rows of 46, as in harness/sweep/catalogue/message.hpp. A pose without
+/// rotation has four zeros, and is left to check(Trajectory).
 #pragma once
 
 #include <pybind11/numpy.h>

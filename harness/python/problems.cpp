@@ -6,9 +6,9 @@
 
 #include "datasets/derive/odometry.hpp"
 #include "datasets/derive/planar.hpp"
-#include "harness/config/choices.hpp"
-#include "harness/eval/correct.hpp"
-#include "harness/eval/loops.hpp"
+#include "harness/commands/correct/correct.hpp"
+#include "harness/commands/loops/loops.hpp"
+#include "harness/sweep/config/choices.hpp"
 
 namespace loopbench::python {
 namespace {

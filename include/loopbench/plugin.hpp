@@ -1,4 +1,4 @@
 /// Everything that a plugin needs: methods, datasets and metrics, and LOOPBENCH_PLUGIN(...).
 #pragma once
 
-#include "harness/catalogue/plugin.hpp"
+#include "harness/sweep/catalogue/plugin.hpp"

@@ -4,9 +4,9 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
-#include "harness/catalogue/arguments.hpp"
-#include "harness/catalogue/command_metric.hpp"
-#include "harness/catalogue/exchange.hpp"
+#include "harness/sweep/catalogue/arguments.hpp"
+#include "harness/sweep/catalogue/command_metric.hpp"
+#include "harness/sweep/catalogue/exchange.hpp"
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench::command_test {

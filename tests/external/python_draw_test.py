@@ -172,7 +172,7 @@ class Draw(unittest.TestCase):
         self.assertEqual([line.get_linestyle() for line in lines], ["-", "-", "--"])
 
     def test_colours_are_those_of_the_report(self):
-        header = Path(__file__).parents[2] / "harness/report/curve.hpp"
+        header = Path(__file__).parents[2] / "harness/answers/report/curve.hpp"
         self.assertEqual(re.findall('"(#[0-9a-f]{6})"', header.read_text()), [*panels.COLORS])
 
     def test_style_sheets_and_settings_of_the_user_win(self):

@@ -3,7 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "harness/catalogue/server.hpp"
+#include "harness/sweep/catalogue/server.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::serve_test {

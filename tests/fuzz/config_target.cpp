@@ -1,5 +1,5 @@
-#include "harness/catalogue/catalogue.hpp"
-#include "harness/config/read_sweep.hpp"
+#include "harness/sweep/catalogue/catalogue.hpp"
+#include "harness/sweep/config/read_sweep.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
 

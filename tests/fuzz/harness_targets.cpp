@@ -1,11 +1,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "harness/eval/arguments.hpp"
-#include "harness/eval/evaluate_files.hpp"
-#include "harness/gate/gate.hpp"
-#include "harness/model/where.hpp"
-#include "harness/run/pack.hpp"
+#include "harness/answers/gate/gate.hpp"
+#include "harness/commands/eval/arguments.hpp"
+#include "harness/commands/eval/evaluate_files.hpp"
+#include "harness/sweep/model/where.hpp"
+#include "harness/sweep/run/pack.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
 

@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "datasets/rgbd/folder/layouts.hpp"
-#include "datasets/rgbd/folder/read_image.hpp"
-#include "datasets/rgbd/images/camera.hpp"
+#include "datasets/images/folder/layouts.hpp"
+#include "datasets/images/folder/read_image.hpp"
+#include "datasets/images/frames/camera.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
 

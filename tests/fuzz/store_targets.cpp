@@ -1,6 +1,6 @@
-#include "harness/report/report.hpp"
-#include "harness/store/read.hpp"
-#include "harness/store/traces.hpp"
+#include "harness/answers/report/report.hpp"
+#include "harness/sweep/store/read.hpp"
+#include "harness/sweep/store/traces.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
 

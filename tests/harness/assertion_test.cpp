@@ -1,5 +1,5 @@
 /// Assertions about the comparison of a sweep that is worked by hand.
-#include "harness/compare/assertion.hpp"
+#include "harness/answers/compare/assertion.hpp"
 
 #include <gtest/gtest.h>
 

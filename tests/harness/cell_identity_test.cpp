@@ -1,7 +1,7 @@
 /// Identity of cells: labels, files and machines.
 #include <gtest/gtest.h>
 
-#include "harness/store/merge.hpp"
+#include "harness/sweep/store/merge.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::tiny_store::cell_identity_test {

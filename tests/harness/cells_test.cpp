@@ -1,4 +1,4 @@
-#include "harness/model/cells.hpp"
+#include "harness/sweep/model/cells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/hash.hpp"
+#include "harness/sweep/text/hash.hpp"
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench::cells_test {

@@ -1,5 +1,5 @@
 /// Results of methods are checked before they are evaluated: what breaks a rule fails its own cell.
-#include "harness/run/check_output.hpp"
+#include "harness/sweep/run/check_output.hpp"
 
 #include <cmath>
 #include <functional>

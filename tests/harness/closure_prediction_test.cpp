@@ -4,9 +4,9 @@
 
 #include <sstream>
 
-#include "harness/config/read_sweep.hpp"
-#include "harness/model/loops.hpp"
-#include "harness/run/run_cell.hpp"
+#include "harness/sweep/config/read_sweep.hpp"
+#include "harness/sweep/model/loops.hpp"
+#include "harness/sweep/run/run_cell.hpp"
 #include "methods/correctors/closure_ledger.hpp"
 #include "tests/support/rounds.hpp"
 

@@ -1,12 +1,12 @@
 /// Verdicts computed by hand.
-#include "harness/compare/compare.hpp"
+#include "harness/answers/compare/compare.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "harness/tables/comparison.hpp"
+#include "harness/answers/tables/comparison.hpp"
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 

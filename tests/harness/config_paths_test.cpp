@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "datasets/core/error.hpp"
-#include "harness/config/paths.hpp"
+#include "harness/sweep/config/paths.hpp"
 
 namespace loopbench::config_paths_test {
 

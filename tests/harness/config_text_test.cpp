@@ -1,8 +1,8 @@
 /// Interpretation of scalars depends on the option's type.
 #include <gtest/gtest.h>
 
-#include "harness/catalogue/catalogue.hpp"
-#include "harness/config/read_sweep.hpp"
+#include "harness/sweep/catalogue/catalogue.hpp"
+#include "harness/sweep/config/read_sweep.hpp"
 
 namespace loopbench::config_text_test {
 

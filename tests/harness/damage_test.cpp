@@ -2,8 +2,8 @@
 #include <random>
 #include <tuple>
 
-#include "harness/store/merge.hpp"
-#include "harness/store/open.hpp"
+#include "harness/sweep/store/merge.hpp"
+#include "harness/sweep/store/open.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/tiny_store.hpp"
 

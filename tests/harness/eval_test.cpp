@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <tuple>
 
-#include "harness/eval/evaluation_checks.hpp"
+#include "harness/commands/eval/evaluation_checks.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/problems.hpp"
 

@@ -1,4 +1,4 @@
-#include "harness/run/evaluation_notes.hpp"
+#include "harness/sweep/run/evaluation_notes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

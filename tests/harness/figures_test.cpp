@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/so3.hpp"
-#include "harness/eval/eval_figures.hpp"
+#include "harness/commands/eval/eval_figures.hpp"
 
 namespace loopbench::figures_test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "datasets/core/error.hpp"
-#include "harness/gate/gate.hpp"
-#include "harness/tables/gate_table.hpp"
+#include "harness/answers/gate/gate.hpp"
+#include "harness/answers/tables/gate_table.hpp"
 #include "tests/support/gate_snapshot.hpp"
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"

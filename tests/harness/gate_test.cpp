@@ -1,5 +1,5 @@
 /// Pass and fail conditions of the gate.
-#include "harness/gate/gate.hpp"
+#include "harness/answers/gate/gate.hpp"
 
 #include <gtest/gtest.h>
 

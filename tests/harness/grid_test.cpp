@@ -1,4 +1,4 @@
-#include "harness/config/grid.hpp"
+#include "harness/sweep/config/grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "harness/tables/growth.hpp"
+#include "harness/answers/tables/growth.hpp"
 
 #include <gtest/gtest.h>
 

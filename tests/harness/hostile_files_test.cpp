@@ -7,11 +7,11 @@
 #include <thread>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/hash.hpp"
-#include "harness/base/printable.hpp"
-#include "harness/base/write_file.hpp"
-#include "harness/tables/record_csv.hpp"
-#include "harness/tables/table.hpp"
+#include "harness/answers/tables/record_csv.hpp"
+#include "harness/answers/tables/table.hpp"
+#include "harness/sweep/process/write_file.hpp"
+#include "harness/sweep/text/hash.hpp"
+#include "harness/sweep/text/printable.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/refusal_of.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "harness/compare/rank_sum.hpp"
-#include "harness/compare/signed_rank.hpp"
+#include "harness/answers/compare/rank_sum.hpp"
+#include "harness/answers/compare/signed_rank.hpp"
 #include "metrics/numerics/average.hpp"
 
 namespace loopbench::inference_test {

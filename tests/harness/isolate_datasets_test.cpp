@@ -14,9 +14,9 @@
 #include <functional>
 #include <thread>
 
-#include "harness/base/printable.hpp"
-#include "harness/run/check_output.hpp"
-#include "harness/run/pack.hpp"
+#include "harness/sweep/run/check_output.hpp"
+#include "harness/sweep/run/pack.hpp"
+#include "harness/sweep/text/printable.hpp"
 #include "tests/support/isolated_fixture.hpp"
 #include "tests/support/refusal_of.hpp"
 

@@ -6,10 +6,10 @@
 #include <atomic>
 #include <csignal>
 
-#include "harness/catalogue/load_sequence.hpp"
-#include "harness/config/read_sweep.hpp"
-#include "harness/run/cell_queue.hpp"
-#include "harness/run/pack.hpp"
+#include "harness/sweep/catalogue/load_sequence.hpp"
+#include "harness/sweep/config/read_sweep.hpp"
+#include "harness/sweep/run/cell_queue.hpp"
+#include "harness/sweep/run/pack.hpp"
 #include "methods/function_method.hpp"
 #include "tests/support/isolated_fixture.hpp"
 #include "tests/support/problems.hpp"

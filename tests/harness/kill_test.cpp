@@ -10,8 +10,8 @@
 #include <random>
 #include <thread>
 
-#include "harness/base/sanitized.hpp"
-#include "harness/store/sqlite.hpp"
+#include "harness/sweep/process/sanitized.hpp"
+#include "harness/sweep/store/sqlite.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/store_text.hpp"
 

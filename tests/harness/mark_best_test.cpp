@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "harness/tables/pivot.hpp"
+#include "harness/answers/tables/pivot.hpp"
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 

@@ -1,7 +1,7 @@
 /// Merging of stores, and stores that cannot be merged.
-#include "harness/store/merge.hpp"
+#include "harness/sweep/store/merge.hpp"
 
-#include "harness/catalogue/load_sequence.hpp"
+#include "harness/sweep/catalogue/load_sequence.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::tiny_store::merge_test {

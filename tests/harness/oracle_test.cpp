@@ -2,10 +2,10 @@
 
 #include <numbers>
 
-#include "harness/catalogue/catalogue.hpp"
-#include "harness/run/run_cell.hpp"
-#include "harness/store/store.hpp"
-#include "harness/tables/pivot.hpp"
+#include "harness/answers/tables/pivot.hpp"
+#include "harness/sweep/catalogue/catalogue.hpp"
+#include "harness/sweep/run/run_cell.hpp"
+#include "harness/sweep/store/store.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::oracle_test {

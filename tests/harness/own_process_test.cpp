@@ -1,5 +1,5 @@
 /// Work in a process of its own: what it returns, throws, and how it can fail.
-#include "harness/base/own_process.hpp"
+#include "harness/sweep/process/own_process.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
-#include "harness/base/sanitized.hpp"
+#include "harness/sweep/process/sanitized.hpp"
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench::own_process_test {

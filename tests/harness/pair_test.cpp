@@ -1,5 +1,5 @@
 /// Comparisons of two methods are monotone, and blind to third ones.
-#include "harness/compare/pair.hpp"
+#include "harness/answers/compare/pair.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <utility>
 
-#include "harness/compare/compare.hpp"
-#include "harness/compare/signed_rank.hpp"
+#include "harness/answers/compare/compare.hpp"
+#include "harness/answers/compare/signed_rank.hpp"
 
 namespace loopbench::pair_test {
 

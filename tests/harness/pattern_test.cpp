@@ -1,4 +1,4 @@
-#include "harness/base/pattern.hpp"
+#include "harness/sweep/text/pattern.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 /// What a table averages, over which runs, and which notes say so.
-#include "harness/tables/pivot.hpp"
+#include "harness/answers/tables/pivot.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "datasets/core/error.hpp"
-#include "harness/compare/derived.hpp"
-#include "harness/tables/record_csv.hpp"
+#include "harness/answers/compare/derived.hpp"
+#include "harness/answers/tables/record_csv.hpp"
 #include "tests/support/compared_sweep.hpp"
 
 namespace loopbench::compared_sweep::pivot_test {

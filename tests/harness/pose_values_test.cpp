@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/report/data.hpp"
-#include "harness/store/traces.hpp"
+#include "harness/answers/report/data.hpp"
+#include "harness/sweep/store/traces.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::pose_values_test {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "harness/compare/verdict.hpp"
+#include "harness/answers/compare/verdict.hpp"
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 

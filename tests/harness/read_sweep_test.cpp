@@ -1,4 +1,4 @@
-#include "harness/config/read_sweep.hpp"
+#include "harness/sweep/config/read_sweep.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 /// Stores that are read while others write.
 #include <thread>
 
-#include "harness/store/open.hpp"
-#include "harness/store/stored_cells.hpp"
+#include "harness/sweep/store/open.hpp"
+#include "harness/sweep/store/stored_cells.hpp"
 #include "tests/studies/synthetic_store.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/compared_sweep.hpp"

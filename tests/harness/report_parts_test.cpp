@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/core/error.hpp"
-#include "harness/report/assets.hpp"
-#include "harness/report/data.hpp"
-#include "harness/report/report.hpp"
-#include "harness/report/sections.hpp"
+#include "harness/answers/report/assets.hpp"
+#include "harness/answers/report/data.hpp"
+#include "harness/answers/report/report.hpp"
+#include "harness/answers/report/sections.hpp"
 #include "tests/studies/synthetic_store.hpp"
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/temporary_folder.hpp"

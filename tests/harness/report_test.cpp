@@ -1,17 +1,17 @@
 /// Reports: contents, size, and rendering in a browser.
-#include "harness/report/report.hpp"
+#include "harness/answers/report/report.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "harness/catalogue/load_sequence.hpp"
-#include "harness/config/read_sweep.hpp"
-#include "harness/report/curve.hpp"
-#include "harness/report/data.hpp"
-#include "harness/report/draw.hpp"
-#include "harness/store/store.hpp"
+#include "harness/answers/report/curve.hpp"
+#include "harness/answers/report/data.hpp"
+#include "harness/answers/report/draw.hpp"
+#include "harness/sweep/catalogue/load_sequence.hpp"
+#include "harness/sweep/config/read_sweep.hpp"
+#include "harness/sweep/store/store.hpp"
 #include "tests/support/browser.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"

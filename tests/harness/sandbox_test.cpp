@@ -1,11 +1,11 @@
 /// What a program in bubblewrap can read and write.
-#include "harness/base/sandbox.hpp"
+#include "harness/sweep/process/sandbox.hpp"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 
-#include "harness/base/program.hpp"
+#include "harness/sweep/process/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::sandbox_test {

@@ -4,10 +4,10 @@
 
 #include <set>
 
-#include "harness/catalogue/catalogue.hpp"
-#include "harness/catalogue/load_sequence.hpp"
-#include "harness/config/read_sweep.hpp"
-#include "harness/run/summarise_sequence.hpp"
+#include "harness/sweep/catalogue/catalogue.hpp"
+#include "harness/sweep/catalogue/load_sequence.hpp"
+#include "harness/sweep/config/read_sweep.hpp"
+#include "harness/sweep/run/summarise_sequence.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::sequence_identity_test {

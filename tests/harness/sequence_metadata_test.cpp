@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "datasets/core/se3.hpp"
-#include "harness/run/summarise_sequence.hpp"
+#include "harness/sweep/run/summarise_sequence.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::sequence_metadata_test {

@@ -1,13 +1,13 @@
 /// Division of sweeps into shards, and their stores.
-#include "harness/store/shard.hpp"
+#include "harness/sweep/store/shard.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 
-#include "harness/store/merge.hpp"
-#include "harness/store/resume.hpp"
+#include "harness/sweep/store/merge.hpp"
+#include "harness/sweep/store/resume.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::tiny_store::shard_test {

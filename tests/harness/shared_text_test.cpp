@@ -1,5 +1,5 @@
 /// Texts that are kept once.
-#include "harness/base/shared_text.hpp"
+#include "harness/sweep/model/shared_text.hpp"
 
 #include <gtest/gtest.h>
 

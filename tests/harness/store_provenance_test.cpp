@@ -1,5 +1,5 @@
 /// Provenance of exported tables.
-#include "harness/tables/store_provenance.hpp"
+#include "harness/answers/tables/store_provenance.hpp"
 
 #include <gtest/gtest.h>
 

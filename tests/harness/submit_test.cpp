@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "harness/commands/slurm_scripts.hpp"
+#include "harness/commands/submit/slurm_scripts.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::submit_test {

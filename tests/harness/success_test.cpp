@@ -1,5 +1,5 @@
 // Success rates over runs.
-#include "harness/tables/success.hpp"
+#include "harness/answers/tables/success.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "harness/base/suggest.hpp"
+#include "harness/sweep/text/suggest.hpp"
 
 #include <gtest/gtest.h>
 

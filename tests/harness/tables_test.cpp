@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "harness/model/where.hpp"
-#include "harness/tables/notes.hpp"
-#include "harness/tables/pivot.hpp"
-#include "harness/tables/record_csv.hpp"
-#include "harness/tables/summary.hpp"
+#include "harness/answers/tables/notes.hpp"
+#include "harness/answers/tables/pivot.hpp"
+#include "harness/answers/tables/record_csv.hpp"
+#include "harness/answers/tables/summary.hpp"
+#include "harness/sweep/model/where.hpp"
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <sstream>
 
-#include "harness/base/shell.hpp"
-#include "harness/base/wrap.hpp"
-#include "harness/tables/table.hpp"
+#include "harness/answers/tables/table.hpp"
+#include "harness/sweep/process/shell.hpp"
+#include "harness/sweep/text/wrap.hpp"
 
 namespace loopbench::terminal_test {
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "datasets/formats/trajectory_file.hpp"
-#include "harness/eval/named_trajectory.hpp"
-#include "harness/eval/trajectory_selection.hpp"
-#include "harness/eval/transformation.hpp"
+#include "harness/commands/files/named_trajectory.hpp"
+#include "harness/commands/files/trajectory_selection.hpp"
+#include "harness/commands/files/transformation.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "harness/compare/derived.hpp"
-#include "harness/model/recorded_run.hpp"
+#include "harness/answers/compare/derived.hpp"
+#include "harness/sweep/model/evaluated_run.hpp"
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 
@@ -190,7 +190,7 @@ TEST(Defect15, IndependentRunsAreNoGroupsAndABaselineDoesNotDifferFromItself) {
   }
   records.push_back(failed("office", 10, "bad"));
   for (Record& r : records) {
-    r.cell.edit().group = recorded_group(std::to_string(r.cell->repeat), "a");
+    r.cell.edit().group = evaluated_group(std::to_string(r.cell->repeat), "a");
   }
   const Comparison against_bad = compared(records, {.baseline = "bad"});
   EXPECT_EQ(sentence(against_bad), "good is best, better than bad on 100 of 100 pairs of runs");

@@ -1,5 +1,5 @@
 /// The verdict: sentence, groups, cautions.
-#include "harness/compare/verdict.hpp"
+#include "harness/answers/compare/verdict.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "harness/tables/comparison.hpp"
+#include "harness/answers/tables/comparison.hpp"
 #include "tests/support/compared_sweep.hpp"
 
 namespace loopbench::compared_sweep::verdict_test {

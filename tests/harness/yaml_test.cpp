@@ -1,4 +1,4 @@
-#include "harness/config/yaml.hpp"
+#include "harness/sweep/config/yaml.hpp"
 
 #include <gtest/gtest.h>
 

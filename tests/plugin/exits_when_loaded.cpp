@@ -1,7 +1,7 @@
 // A plugin that ends the process that loads it, as if all were well, or never returns.
 #include <cstdlib>
 
-#include "harness/catalogue/plugin.hpp"
+#include "harness/sweep/catalogue/plugin.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // A metric and a method that tests and benchmarks have in other languages, too.
-#include "harness/catalogue/plugin.hpp"
+#include "harness/sweep/catalogue/plugin.hpp"
 
 using namespace loopbench;
 using namespace loopbench::metrics;

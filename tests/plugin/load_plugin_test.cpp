@@ -6,8 +6,8 @@
 #include <map>
 
 #include "datasets/core/error.hpp"
-#include "harness/catalogue/plugins.hpp"
-#include "harness/store/read.hpp"
+#include "harness/sweep/catalogue/plugins.hpp"
+#include "harness/sweep/store/read.hpp"
 #include "methods/online/online.hpp"
 #include "methods/pipeline.hpp"
 #include "tests/support/command.hpp"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "companion.hpp"
-#include "harness/catalogue/plugin.hpp"
+#include "harness/sweep/catalogue/plugin.hpp"
 
 using namespace loopbench;
 using namespace loopbench::methods;

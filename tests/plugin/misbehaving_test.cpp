@@ -3,9 +3,9 @@
 
 #include <cstdlib>
 
-#include "harness/catalogue/catalogue.hpp"
-#include "harness/catalogue/plugins.hpp"
-#include "harness/store/read.hpp"
+#include "harness/sweep/catalogue/catalogue.hpp"
+#include "harness/sweep/catalogue/plugins.hpp"
+#include "harness/sweep/store/read.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/refusal_of.hpp"
 

@@ -1,5 +1,5 @@
 // A correct plugin whose method computes with OpenMP.
-#include "harness/catalogue/plugin.hpp"
+#include "harness/sweep/catalogue/plugin.hpp"
 
 using namespace loopbench;
 using namespace loopbench::methods;

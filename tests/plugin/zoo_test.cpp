@@ -10,8 +10,8 @@
 #include <numbers>
 #include <thread>
 
-#include "harness/base/sanitized.hpp"
-#include "harness/store/read.hpp"
+#include "harness/sweep/process/sanitized.hpp"
+#include "harness/sweep/store/read.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::zoo_test {

@@ -14,9 +14,9 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "harness/base/hash.hpp"
-#include "harness/store/shard.hpp"
-#include "harness/store/store.hpp"
+#include "harness/sweep/store/shard.hpp"
+#include "harness/sweep/store/store.hpp"
+#include "harness/sweep/text/hash.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace {

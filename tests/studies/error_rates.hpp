@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "harness/compare/compare.hpp"
+#include "harness/answers/compare/compare.hpp"
 #include "tests/studies/synthetic_records.hpp"
 
 namespace loopbench::synthetic {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/compare/observations.hpp"
-#include "harness/model/record.hpp"
+#include "harness/answers/compare/observations.hpp"
+#include "harness/sweep/model/record.hpp"
 
 namespace loopbench::synthetic {
 

@@ -1,7 +1,7 @@
 #include "tests/studies/synthetic_store.hpp"
 
-#include "harness/model/name_order.hpp"
-#include "harness/store/store.hpp"
+#include "harness/sweep/model/name_order.hpp"
+#include "harness/sweep/store/store.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench::synthetic {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "harness/model/record.hpp"
+#include "harness/sweep/model/record.hpp"
 
 namespace loopbench::synthetic {
 

@@ -1,7 +1,7 @@
 /// Records of a sweep whose verdicts are computed by hand.
 #pragma once
 
-#include "harness/compare/verdict.hpp"
+#include "harness/answers/compare/verdict.hpp"
 #include "tests/support/has.hpp"
 
 namespace loopbench::compared_sweep {

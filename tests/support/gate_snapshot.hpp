@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "harness/gate/gate.hpp"
+#include "harness/answers/gate/gate.hpp"
 #include "tests/support/compared_sweep.hpp"
 
 namespace loopbench::gate_snapshot {

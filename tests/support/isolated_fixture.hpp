@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <functional>
 
-#include "harness/catalogue/load_sequence.hpp"
-#include "harness/config/read_sweep.hpp"
-#include "harness/run/isolated_sweep.hpp"
+#include "harness/sweep/catalogue/load_sequence.hpp"
+#include "harness/sweep/config/read_sweep.hpp"
+#include "harness/sweep/run/isolated_sweep.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench::tiny {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/store/read.hpp"
-#include "harness/store/traces.hpp"
+#include "harness/sweep/store/read.hpp"
+#include "harness/sweep/store/traces.hpp"
 
 namespace loopbench {
 

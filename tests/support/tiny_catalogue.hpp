@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "datasets/core/polyline.hpp"
-#include "harness/catalogue/load_sequence.hpp"
-#include "harness/model/result.hpp"
-#include "harness/run/run_cell.hpp"
-#include "harness/run/summarise_sequence.hpp"
+#include "harness/sweep/catalogue/load_sequence.hpp"
+#include "harness/sweep/model/result.hpp"
+#include "harness/sweep/run/run_cell.hpp"
+#include "harness/sweep/run/summarise_sequence.hpp"
 
 namespace loopbench {
 

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/catalogue/load_sequence.hpp"
-#include "harness/config/read_sweep.hpp"
-#include "harness/store/store.hpp"
+#include "harness/sweep/catalogue/load_sequence.hpp"
+#include "harness/sweep/config/read_sweep.hpp"
+#include "harness/sweep/store/store.hpp"
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/store_text.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,6 +1,6 @@
 /// The article's readings as methods: literal ones, and oracles of results/methods/plugin, which
 /// take axes from the reference or quantify the gain from a leak of it.
-#include "harness/catalogue/plugin.hpp"
+#include "harness/sweep/catalogue/plugin.hpp"
 #include "paper_literal.hpp"
 
 namespace loopbench::paper {

@@ -1,4 +1,4 @@
 // A shared object without a LOOPBENCH_PLUGIN line.
-#include "harness/catalogue/plugin.hpp"
+#include "harness/sweep/catalogue/plugin.hpp"
 
 int answer() { return 42; }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/catalogue/plugin.hpp"
+#include "harness/sweep/catalogue/plugin.hpp"
 
 namespace loopbench::zoo {
 

@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/answers/compare/verdict.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+using Names = std::vector<std::string>;
+
+double change_of_ratio(double ratio) { return 100.0 * (ratio - 1.0); }
+
+void widen(std::optional<Change>& range, double low_ratio, double high_ratio) {
+  const Change own{change_of_ratio(low_ratio), change_of_ratio(high_ratio)};
+  range = range ? Change{std::min(range->low, own.low), std::max(range->high, own.high)} : own;
+}
+
+/// Whether both have changes, which are all within `points`, or none has.
+bool are_near(const std::optional<Change>& a, const std::optional<Change>& b, double points) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return std::max(a->high, b->high) - std::min(a->low, b->low) <= points;
+}
+
+bool are_near(const VerdictGroup& a, const VerdictGroup& b, double points) {
+  bool out = are_near(a.all, b.all, points);
+  for (std::size_t s = 0; s < a.by_sequence.size(); ++s) {
+    out = out && are_near(a.by_sequence[s], b.by_sequence[s], points);
+  }
+  return out;
+}
+
+/// The first place, and neighbours that differ by at most `points` from all of their group.
+std::vector<VerdictGroup> groups_within(const Comparison& c,
+                                        const Names& sequences,
+                                        double points) {
+  const auto as_group = [&](const std::vector<const MethodVerdict*>& members) {
+    return group_of(members, sequences, c.options.baseline);
+  };
+  std::vector<VerdictGroup> out;
+  std::vector<const MethodVerdict*> members;  // of the last group
+  for (const MethodVerdict& m : c.methods) {
+    if (m.is_worse && m.method == c.options.baseline) continue;
+    const VerdictGroup own = as_group({&m});
+    const bool joins = !out.empty() && out.back().is_first == own.is_first &&
+                       (own.is_first || are_near(out.back(), own, points));
+    if (!joins) {
+      members.clear();
+      out.emplace_back();
+    }
+    members.push_back(&m);
+    out.back() = as_group(members);
+  }
+  return out;
+}
+
+/// A method that is significantly worse than the baseline.
+struct Caution {
+  double log_ratio = 0.0;
+  std::string text;
+};
+
+bool is_worse_ratio(double ratio, const Comparison& c) {
+  const double loss = c.kind.better == metrics::Better::higher ? -std::log(ratio) : std::log(ratio);
+  return loss > std::log1p(c.options.relevant);
+}
+
+std::string percent_of_ratio(double ratio) {
+  return percent_text(std::abs(change_of_ratio(ratio))) + " %";
+}
+
+/// ", dm_robust 66 % better": the method that is best there, if that is significant.
+std::string best_there(const Comparison& c, const std::string& sequence) {
+  const MethodVerdict* best = nullptr;
+  double least = 1.0, found = 1.0;
+  for (const MethodVerdict& m : c.methods) {
+    if (!m.ratio) continue;
+    for (const SequenceRatio& one : m.ratio->by_sequence) {
+      if (one.sequence != sequence || !one.is_clear) continue;
+      const double ratio = c.kind.better == metrics::Better::higher ? 1.0 / one.ratio : one.ratio;
+      if (!(ratio < least)) continue;
+      best = &m;
+      least = ratio;
+      found = one.ratio;
+    }
+  }
+  return best == nullptr ? "" : ", " + best->method + " " + percent_of_ratio(found) + " better";
+}
+
+/// At most one for each method: the worst sequence.
+void add_cautions(std::vector<Caution>& out, const Comparison& c, const std::string& axis) {
+  for (const MethodVerdict& m : c.methods) {
+    if (!m.ratio) continue;
+    const SequenceRatio* worst = nullptr;
+    std::size_t sequences = 0;
+    for (const SequenceRatio& one : m.ratio->by_sequence) {
+      if (!one.is_clear || !is_worse_ratio(one.ratio, c)) continue;
+      ++sequences;
+      if (!worst || is_worse_ratio(one.ratio / worst->ratio, c)) worst = &one;
+    }
+    const double ratio = worst != nullptr ? worst->ratio : m.ratio->typical.estimate;
+    // That a method is worse over all is in the table of groups, but not for the rotation.
+    if (!worst && (axis.empty() || !m.is_beaten)) continue;
+    std::string text =
+        axis + m.method + " is " + percent_of_ratio(ratio) + " worse than " + c.options.baseline;
+    if (worst != nullptr) text += " on " + worst->sequence + best_there(c, worst->sequence);
+    if (sequences > 1) text += fmt::format("; worse on {} sequences", sequences);
+    out.push_back({std::abs(std::log(ratio)), text});
+  }
+}
+
+}  // namespace
+
+VerdictGroup group_of(const std::vector<const MethodVerdict*>& members,
+                      const Names& sequences,
+                      const std::string& baseline) {
+  VerdictGroup out;
+  out.is_first = !members.front()->is_worse;
+  out.by_sequence.resize(sequences.size());
+  bool has_interval = true;
+  for (const MethodVerdict* m : members) {
+    out.methods.push_back(m->method);
+    if (members.size() > 1 && m->method == baseline) continue;
+    const bool is_open = m->is_divided || m->is_contradicted;
+    has_interval = has_interval && (is_open || (m->ratio && m->ratio->has_interval));
+    if (!m->ratio) continue;
+    const Interval& typical = m->ratio->typical;
+    if (!is_open) {
+      widen(out.all, typical.estimate, typical.estimate);
+      widen(out.interval, typical.low, typical.high);
+    }
+    for (const SequenceRatio& one : m->ratio->by_sequence) {
+      const auto found = std::ranges::find(sequences, one.sequence);
+      if (found == sequences.end()) continue;
+      widen(out.by_sequence[static_cast<std::size_t>(found - sequences.begin())],
+            one.ratio,
+            one.ratio);
+    }
+  }
+  if (!has_interval) out.interval.reset();
+  out.name = short_names(out.methods, ", ");
+  return out;
+}
+
+std::string short_names(Names names, const std::string& last_separator) {
+  constexpr std::size_t kMost = 3;
+  const std::size_t plus = names.front().find(" + ");
+  for (std::size_t i = 1; i < names.size() && plus != std::string::npos; ++i) {
+    if (names[i].starts_with(names.front().substr(0, plus + 3))) names[i].erase(0, plus + 3);
+  }
+  if (names.size() > kMost) {
+    names[kMost - 1] = fmt::format("{} more", names.size() - (kMost - 1));
+    names.resize(kMost);
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    out += (i == 0 ? "" : i + 1 == names.size() ? last_separator : ", ") + names[i];
+  }
+  return out;
+}
+
+std::vector<VerdictGroup> groups_of(const Comparison& c, const Names& sequences) {
+  constexpr std::size_t kMostGroups = 5;
+  double points = 1.0;
+  std::vector<VerdictGroup> out = groups_within(c, sequences, points);
+  for (int step = 0; step < 12 && out.size() > kMostGroups; ++step) {
+    points *= 2.0;
+    out = groups_within(c, sequences, points);
+  }
+  return out;
+}
+
+std::vector<std::string> cautions_of(const Comparison& c, const std::vector<Comparison>& all) {
+  constexpr std::size_t kMost = 3;
+  std::vector<Caution> found;
+  add_cautions(found, c, "");
+  for (const Comparison& other : all) {
+    const bool is_rotation = other.kind.unit == "deg" && c.kind.unit != "deg" &&
+                             other.kind.metric_label() == c.kind.metric_label() &&
+                             other.kind.times == c.kind.times && other.kind.axis == c.kind.axis &&
+                             other.kind.protocol == c.kind.protocol;
+    if (is_rotation) add_cautions(found, other, "rotation: ");
+  }
+  std::ranges::stable_sort(found, std::greater(), &Caution::log_ratio);
+  Names out;
+  for (const Caution& each : found) {
+    if (out.size() < kMost) out.push_back(each.text);
+  }
+  if (found.size() > kMost) out.push_back(fmt::format("{} more cautions", found.size() - kMost));
+  return out;
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,153 @@
+#include "harness/answers/report/sections.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "harness/answers/tables/comparison.hpp"
+#include "harness/answers/tables/pivot.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+std::string counter(std::size_t number, const std::string& what, const std::string& kind = "") {
+  return fmt::format("<div class=\"counter {}\"><b>{}</b> {}</div>", kind, number, html_text(what));
+}
+
+std::string plural(std::size_t number, const std::string& one) {
+  return number == 1 ? one : one + "s";
+}
+
+/// Gains and times are shown next to the names, so that they need no scrolling.
+bool is_shown_first(const Record& r) {
+  return r.kind->metric == "gain" || r.kind->metric == "time";
+}
+
+/// The first score in large type, for a single method.
+std::string only_score(const ReportContent& content) {
+  const auto first = std::ranges::find_if(
+      content.records, [](const Record& r) { return r.has_score() && r.status == Status::ok; });
+  if (first == content.records.end()) return "";
+  return fmt::format(
+      "<div class=\"key\"><span class=\"number\">{:.4g} {}</span><span class=\"what\">{} of "
+      "<b>{}</b>, rmse, {}, {}</span></div>\n",
+      first->statistics.rmse,
+      html_text(first->kind->unit),
+      html_text(first->kind->short_name()),
+      html_text(first->cell->method.text()),
+      html_text(first->kind->times),
+      html_text(first->kind->protocol));
+}
+
+}  // namespace
+
+std::string summary_html(const ReportContent& content) {
+  std::map<Status, std::size_t> statuses;
+  std::set<std::int64_t> repeats;
+  for (const CellRow& cell : content.cells) {
+    ++statuses[cell.status];
+    repeats.insert(cell.repeat);
+  }
+  std::string out =
+      "<div class=\"counters\">" +
+      counter(content.methods.size(), plural(content.methods.size(), "method")) +
+      counter(content.sequences.size(), plural(content.sequences.size(), "sequence")) +
+      counter(repeats.size(), plural(repeats.size(), "repeat"));
+  for (const auto& [status, number] : statuses) {
+    const bool is_bad = is_failure(status);
+    out += counter(number, plural(number, "cell") + " " + to_text(status), is_bad ? "bad" : "");
+  }
+  out += "</div>\n";
+  if (content.shown == content.sequences.size()) return out;
+  return out + fmt::format(
+                   "<p class=\"warning\">Tables by sequence and figures show the first {} of {} "
+                   "sequences, because the size of the report is limited (--size). Verdicts, costs "
+                   "and failures cover all.</p>\n",
+                   content.shown,
+                   content.sequences.size());
+}
+
+std::string answers_html(const ReportContent& content) {
+  const Comparison* headline = content.headline();
+  if (headline == nullptr && content.methods.size() == 1) return only_score(content);
+  std::string out = fmt::format(
+      "<p class=\"verdict\" data-comparison=\"\"{}>No verdict: the sweep has no baseline, or fewer "
+      "than two methods with a common run and this score.</p>\n",
+      headline == nullptr ? "" : " hidden");
+  for (const Comparison& c : content.comparisons) {
+    if (c.methods.size() < 2) continue;
+    Table groups = verdict_table(verdict_of(c, content.comparisons), 0);
+    out += fmt::format("<div data-comparison=\"{}\"{}><p class=\"verdict\">{}</p>\n",
+                       &c - content.comparisons.data(),
+                       &c == headline ? "" : " hidden",
+                       html_text(groups.title));
+    groups.title = "";
+    out += html_table(groups);
+    if (!c.oracles.empty()) {
+      out += "<p class=\"warning\">Excluded from verdicts because they use the reference: " +
+             html_text(fmt::format("{}", fmt::join(c.oracles, ", "))) + "</p>\n";
+    }
+    out += "</div>\n";
+  }
+  std::set<std::string> measured;
+  for (const CellRow& cell : content.cells) {
+    if (cell.oracle_closures) measured.insert(cell.sequence);
+  }
+  if (measured.empty()) return out;
+  const bool are_all = measured.size() == content.sequences.size();
+  return out + "<p class=\"warning\">" +
+         html_text(are_all ? "all sequences" : fmt::format("{}", fmt::join(measured, ", "))) +
+         ": loop closures were measured in the reference or selected by it (oracle), which is "
+         "better than any detector.</p>\n";
+}
+
+std::string scores_html(const ReportContent& content) {
+  std::string out;
+  std::map<SharedText, std::vector<Record>> by_sequence;
+  for (const bool first : {true, false}) {
+    for (const Record& r : content.records) {
+      if (is_shown_first(r) == first) by_sequence[r.cell->sequence].push_back(r);
+    }
+  }
+  const auto part = [&](const std::string& sequence, const std::string& times) {
+    std::vector<Record> records;
+    for (const Record& r : by_sequence[sequence]) {
+      if (r.kind->times == times || !r.has_score()) records.push_back(r);
+    }
+    if (std::ranges::all_of(records, [](const Record& r) { return !r.has_score(); })) return;
+    for (const Table& table : pivot(records, TableSpec{})) {
+      out += html_table(
+          table, "data-sequence=\"" + html_text(sequence) + "\" data-times=\"" + times + "\"");
+    }
+  };
+  for (const std::string& sequence : content.shown_sequences()) {
+    part(sequence, "keyframes");
+    part(sequence, "dense");
+  }
+  return out.empty() ? "<p>No cell has scores.</p>\n" : out;
+}
+
+std::string provenance_html(const ReportContent& content) {
+  std::string out;
+  out += "<h3>Protocol of every number</h3>\n<pre tabindex=\"0\">" +
+         html_text(content.run_value("protocol")) + "</pre>\n";
+  Table provenance{"provenance", {"item", "value"}, {}, {}};
+  for (const auto& [key, value] : content.provenance) provenance.lines.push_back({key, value});
+  out += html_text_table(provenance);
+  if (!content.inputs.empty()) {
+    Table files{"input files", {"sequence", "file", "bytes", "XXH3 128"}, {}, {}};
+    for (const auto& [sequence, inputs] : content.inputs) {
+      for (const InputFile& input : inputs) {
+        files.lines.push_back({sequence, input.path, std::to_string(input.bytes), input.hash});
+      }
+    }
+    out += html_text_table(files);
+  }
+  return out + "<h3>Config</h3>\n<pre tabindex=\"0\">" + html_text(content.run_value("config")) +
+         "</pre>\n";
+}
+
+}  // namespace loopbench::harness

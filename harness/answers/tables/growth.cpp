@@ -1,0 +1,245 @@
+#include "harness/answers/tables/growth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "harness/sweep/model/name_order.hpp"
+#include "metrics/numerics/median.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+std::optional<double> number_in(const std::string& text) {
+  double out = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, out);
+  return error == std::errc() && rest == end ? std::optional(out) : std::nullopt;
+}
+
+/// An option of an entry: its name and value.
+using NamedOption = std::pair<std::string, std::string>;
+
+/// The options in "simulated: keyframes=60, path=room; b: c=1", and the rest of the text.
+std::pair<std::vector<NamedOption>, std::string> entries_of(const std::string& text) {
+  std::pair<std::vector<NamedOption>, std::string> out;
+  const auto is_letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t equals = text.find('=', at);
+    if (equals == std::string::npos) {
+      out.second += text.substr(at);
+      break;
+    }
+    std::size_t name = equals;
+    while (name > at && is_letter(text[name - 1])) --name;
+    const std::size_t end = std::min(text.find_first_of(",;", equals), text.size());
+    out.second += text.substr(at, name - at);
+    out.first.emplace_back(text.substr(name, equals - name),
+                           text.substr(equals + 1, end - equals - 1));
+    at = end;
+  }
+  return out;
+}
+
+/// An entry with its numbers, and the family that it could belong to.
+struct Entered {
+  std::string label, family;
+  std::vector<std::string> names;
+  std::vector<double> numbers;
+};
+
+Entered entered(const std::string& label, const std::string& text) {
+  Entered out{label, "", {}, {}};
+  const auto [entries, rest] = entries_of(text);
+  out.family = rest.substr(0, rest.find(':'));
+  std::string key = rest;
+  for (const auto& [name, value] : entries) {
+    const auto number = number_in(value);
+    key += "\n" + name + (number ? "" : "=" + value);
+    if (!number) out.family += ", " + value;
+    if (!number) continue;
+    out.names.push_back(name);
+    out.numbers.push_back(*number);
+  }
+  out.family += "\n" + key;
+  return out;
+}
+
+OptionFamily family_of(const std::vector<const Entered*>& all) {
+  OptionFamily out;
+  out.name = all.front()->family.substr(0, all.front()->family.find('\n'));
+  std::vector<std::size_t> varying;
+  for (std::size_t i = 0; i < all.front()->names.size(); ++i) {
+    const auto differs = [&](const Entered* e) { return e->numbers[i] != all.front()->numbers[i]; };
+    if (std::ranges::none_of(all, differs)) continue;
+    varying.push_back(i);
+    out.options.push_back(all.front()->names[i]);
+  }
+  for (const Entered* each : all) {
+    OptionFamily::Member& member = out.members.emplace_back();
+    member.name = each->label;
+    for (const std::size_t i : varying) member.values.push_back(each->numbers[i]);
+  }
+  return out;
+}
+
+/// Quantile 0.975 of Student's t: a table, then its expansion, to 1 %.
+double student(std::size_t degrees) {
+  constexpr double kTable[] = {12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306};
+  return degrees <= std::size(kTable) ? kTable[degrees - 1]
+                                      : 1.96 + 2.5 / static_cast<double>(degrees);
+}
+
+/// The finished and timed cells of a sequence and method.
+using CellsOf = std::map<std::pair<SharedText, SharedText>, std::vector<const CellRow*>>;
+
+Growth growth_of(const OptionFamily& family,
+                 const std::string& method,
+                 std::int64_t CellRow::*size,
+                 const CellsOf& cells) {
+  Growth out{
+      family.name, size == &CellRow::keyframes ? "keyframes" : "closures", method, {}, {}, {}, {}};
+  std::map<double, std::vector<const CellRow*>> by_size;
+  for (const OptionFamily::Member& member : family.members) {
+    const auto found = cells.find({member.name, method});
+    if (found == cells.end()) continue;
+    std::vector<double> sizes;
+    for (const CellRow* cell : found->second) sizes.push_back(static_cast<double>(cell->*size));
+    auto& own = by_size[metrics::median(sizes)];
+    own.insert(own.end(), found->second.begin(), found->second.end());
+  }
+  for (const auto& [own_size, own] : by_size) {
+    std::vector<double> cpu, wall, memory;
+    for (const CellRow* cell : own) {
+      cpu.push_back(1e3 * *cell->cpu_seconds);
+      wall.push_back(1e3 * cell->seconds);
+      if (cell->peak_memory) memory.push_back(1e-6 * static_cast<double>(*cell->peak_memory));
+    }
+    out.sizes.push_back(own_size);
+    out.cpu.push_back(metrics::median(cpu));
+    out.wall.push_back(metrics::median(wall));
+    out.memory.push_back(memory.empty() ? std::nan("") : metrics::median(memory));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string law_text(const std::optional<PowerLaw>& law) {
+  return law ? fmt::format("O(n^{:.2f} \u00b1 {:.2f})", law->exponent, law->half_width) : "-";
+}
+
+std::vector<OptionFamily> sequence_families(const std::vector<CellRow>& cells) {
+  std::vector<std::pair<std::string, std::string>> all;
+  std::set<SharedText> seen;
+  for (const CellRow& cell : cells) {
+    if (seen.insert(cell.sequence).second) all.emplace_back(cell.sequence, cell.dataset_options);
+  }
+  return option_families(all);
+}
+
+std::vector<OptionFamily> option_families(
+    const std::vector<std::pair<std::string, std::string>>& options_of_labels) {
+  std::vector<Entered> all;
+  for (const auto& [label, options] : options_of_labels) all.push_back(entered(label, options));
+  NameOrder keys;
+  std::vector<std::vector<const Entered*>> groups;
+  for (const Entered& each : all) {
+    const std::size_t index = keys.index(each.family);
+    groups.resize(keys.names().size());
+    groups[index].push_back(&each);
+  }
+  std::vector<OptionFamily> out;
+  for (const auto& group : groups) {
+    OptionFamily family = family_of(group);
+    if (family.options.size() == 1 || family.options.size() == 2) out.push_back(std::move(family));
+  }
+  return out;
+}
+
+std::optional<PowerLaw> fitted_power(const std::vector<double>& sizes,
+                                     const std::vector<double>& values) {
+  if (std::set<double>(sizes.begin(), sizes.end()).size() < 3) return std::nullopt;
+  const auto is_positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+  if (!std::ranges::all_of(sizes, is_positive) || !std::ranges::all_of(values, is_positive))
+    return std::nullopt;
+  const auto n = static_cast<double>(sizes.size());
+  double x_mean = 0.0, y_mean = 0.0, mean = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    x_mean += std::log(sizes[i]) / n;
+    y_mean += std::log(values[i]) / n;
+    mean += values[i] / n;
+  }
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double x = std::log(sizes[i]) - x_mean;
+    xx += x * x;
+    xy += x * (std::log(values[i]) - y_mean);
+  }
+  PowerLaw out;
+  out.exponent = xy / xx;
+  out.factor = std::exp(y_mean - out.exponent * x_mean);
+  double of_logs = 0.0, plain = 0.0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double law = out.factor * std::pow(sizes[i], out.exponent);
+    of_logs += std::pow(std::log(values[i] / law), 2);
+    plain += std::pow(values[i] - law, 2);
+  }
+  out.half_width = student(sizes.size() - 2) * std::sqrt(of_logs / (n - 2.0) / xx);
+  out.rms = std::sqrt(plain / n) / mean;
+  return out;
+}
+
+std::vector<Growth> growths(const std::vector<CellRow>& cells) {
+  CellsOf timed;
+  NameOrder methods;
+  for (const CellRow& cell : cells) {
+    methods.index(cell.method);
+    if (cell.runs > 0 && has_numbers(cell.status) && cell.cpu_seconds)
+      timed[{cell.sequence, cell.method}].push_back(&cell);
+  }
+  std::vector<Growth> out;
+  for (const OptionFamily& family : sequence_families(cells)) {
+    for (const std::string& method : methods.names()) {
+      for (const auto size : {&CellRow::keyframes, &CellRow::closure_count}) {
+        Growth growth = growth_of(family, method, size, timed);
+        if (growth.sizes.size() < 3 || growth.sizes.back() < 2.0 * growth.sizes.front()) continue;
+        out.push_back(std::move(growth));
+        break;
+      }
+    }
+  }
+  return out;
+}
+
+Table growth_table(const std::vector<CellRow>& cells) {
+  Table out{"growth of the costs with the size n",
+            {"method",
+             "sequences",
+             "n",
+             "CPU time",
+             "CPU at largest n [ms]",
+             "peak memory",
+             "memory at largest n [MB]"},
+            {},
+            {"exponents fitted to the logarithms of the median over the repeats of each size, with "
+             "95 % intervals; the peak memory contains that of the program"}};
+  for (const Growth& each : growths(cells)) {
+    out.lines.push_back(
+        {each.method,
+         each.family,
+         fmt::format("{:.0f} to {:.0f} {}", each.sizes.front(), each.sizes.back(), each.unit),
+         law_text(fitted_power(each.sizes, each.cpu)),
+         fmt::format("{:.4g}", each.cpu.back()),
+         law_text(fitted_power(each.sizes, each.memory)),
+         fmt::format("{:.4g}", each.memory.back())});
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,64 @@
+/// How the costs of methods grow with the size of their input.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/answers/tables/table.hpp"
+#include "harness/sweep/model/record.hpp"
+
+namespace loopbench::harness {
+
+/// Entries of a sweep that differ in one or two numeric options only.
+struct OptionFamily {
+  struct Member {
+    std::string name;            ///< label of the entry
+    std::vector<double> values;  ///< of `options`
+  };
+  std::string name;                  ///< catalogue names, and the options with a text
+  std::vector<std::string> options;  ///< that differ: "keyframes"
+  std::vector<Member> members;       ///< at least two
+};
+
+/// The families of labels with options as stores have them, "dual; dm: turn_max=0.1, window=4".
+/// Labels with other names of options are of other families. O(n log n).
+std::vector<OptionFamily> option_families(
+    const std::vector<std::pair<std::string, std::string>>& options_of_labels);
+
+/// Those of the sequences of these cells.
+std::vector<OptionFamily> sequence_families(const std::vector<CellRow>& cells);
+
+/// y = factor * size^exponent, fitted to logarithms.
+struct PowerLaw {
+  double factor = 0.0;
+  double exponent = 0.0;
+  double half_width = 0.0;  ///< of the 95 % interval of the exponent, by Student's t
+  double rms = 0.0;         ///< of y minus the law, relative to the mean of y
+};
+
+/// None for fewer than three different sizes, or values that are not positive. O(n).
+std::optional<PowerLaw> fitted_power(const std::vector<double>& sizes,
+                                     const std::vector<double>& values);
+
+/// "O(n^1.02 ± 0.05)"; "-" without a law.
+std::string law_text(const std::optional<PowerLaw>& law);
+
+/// Costs of a method on sequences that differ in size: medians over the repeats of each sequence.
+struct Growth {
+  std::string family;
+  std::string unit;  ///< of the sizes: keyframes or closures
+  std::string method;
+  std::vector<double> sizes;   ///< as loaded, increasing
+  std::vector<double> cpu;     ///< processor time [ms]
+  std::vector<double> wall;    ///< [ms]
+  std::vector<double> memory;  ///< peak [MB]; NaN: unknown
+};
+
+/// Of each family of sequences with three sizes or more, and each method that has results on three.
+std::vector<Growth> growths(const std::vector<CellRow>& cells);
+
+/// A row for each of them with its fitted exponents; no rows without a sweep over a size.
+Table growth_table(const std::vector<CellRow>& cells);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,212 @@
+#include "harness/commands/correct/correct.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "datasets/core/closure_places.hpp"
+#include "datasets/core/covariance.hpp"
+#include "datasets/derive/closures.hpp"
+#include "datasets/derive/planar.hpp"
+#include "datasets/derive/problem_graph.hpp"
+#include "datasets/formats/trajectory_file.hpp"
+#include "harness/commands/loops/loops.hpp"
+#include "harness/sweep/catalogue/external_methods.hpp"
+#include "harness/sweep/process/write_file.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+bool is_graph(const CorrectArguments& a) { return detect_format(a.estimate) == Format::g2o; }
+
+/// Whether a stage of the method corrects keyframes by closures.
+bool uses_closures(const MethodChoice& choice, const Catalogue& catalogue) {
+  return std::ranges::any_of(choice.stages, [&](const Choice& stage) {
+    if (stage.name == "raw" || is_oracle(catalogue, stage.name)) return false;
+    if (is_program(stage)) return true;
+    const methods::Kind kind = find_method(catalogue, stage.name).kind;
+    return kind == methods::Kind::corrector || kind == methods::Kind::joint;
+  });
+}
+
+/// Stamps of the output, ascending; those outside the keyframes' time span are only counted.
+std::vector<double> output_stamps(const CorrectArguments& a,
+                                  const Problem& problem,
+                                  std::size_t& outside) {
+  const Trajectory& keyframes = problem.keyframes;
+  std::vector<double> wanted = stamps(keyframes);
+  if (!a.at.empty()) {
+    wanted = stamps(read_trajectory(a.at));
+  } else if (a.dense) {
+    for (const StampedPose& frame : problem.frames) wanted.push_back(frame.stamp);
+    std::ranges::sort(wanted);
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  }
+  if (keyframes.empty()) return wanted;
+  const double start = keyframes.front().stamp, end = keyframes.back().stamp;
+  const std::size_t all = wanted.size();
+  std::erase_if(wanted, [&](double t) { return t < start || t > end; });
+  outside = all - wanted.size();
+  if (wanted.empty()) {
+    throw InputError(fmt::format("{}: none of the {} stamps is between {} and {} s, the keyframes",
+                                 a.at,
+                                 all,
+                                 to_text(start),
+                                 to_text(end)));
+  }
+  return wanted;
+}
+
+void write(const CorrectArguments& a, const Correction& done) {
+  if (a.format != Format::g2o) {
+    TrajectoryFile file{done.output};
+    if (!done.report.covariances.empty()) {
+      for (const StampedPose& pose : done.output) {
+        file.covariances.push_back(
+            covariance_at(done.keyframes, done.report.covariances, pose.stamp));
+      }
+    }
+    if (a.format != Format::tum) return write_trajectory(a.out, file, a.format);
+    return write_tum(a.out, file, {"corrected by loopbench: " + done.method});
+  }
+  if (!done.problem.anchors.empty()) {
+    throw InputError(a.out + ": a g2o graph contains no anchors, expected another format");
+  }
+  if (a.dense || !a.at.empty()) {
+    throw InputError(a.out + ": a graph contains the keyframes, expected no --dense and no --at");
+  }
+  PoseGraph graph = problem_graph(done.problem, done.keyframes, done.problem.ids);
+  std::erase_if(graph.edges, [&](const Edge& edge) {
+    return std::ranges::any_of(done.provenance.held, [&](const Edge& held) {
+      return edge.from == held.from && edge.to == held.to &&
+             edge.information.isApprox(held.information);
+    });
+  });
+  graph.fixed = done.provenance.fixed;
+  const InformationRules any{.indefinite = IndefiniteInformation::project};
+  graph.planar =  // the lines of the input
+      graph.planar && is_graph(a) && read_g2o(a.estimate, any).planar;
+  write_g2o(a.out, graph);
+}
+
+/// Moves the result so that the first vertex of FIX lines keeps its pose; methods hold keyframe 0.
+void hold_first_fixed(Correction& done) {
+  const std::vector<std::size_t>& fixed = done.provenance.fixed;
+  if (fixed.empty() || fixed.front() == 0 || !done.problem.anchors.empty()) return;
+  const Pose& before = done.problem.keyframes[fixed.front()].world_from_body;
+  const Pose motion = before * done.keyframes[fixed.front()].world_from_body.inverse();
+  for (Trajectory* const poses : {&done.keyframes, &done.output}) {
+    for (auto& [stamp, pose] : *poses) pose = normalized(motion * pose);
+  }
+}
+
+/// Writes the ledger of all closures if its file is wanted, and sets the verdict on the closures
+/// that the method kept, unless it would take long.
+void judge_closures(const CorrectArguments& a, Correction& done) {
+  constexpr std::size_t kFew = 200;  // closures whose ledger takes about a second
+  std::string rows;
+  try {
+    if (!a.ledger.empty()) {
+      LoopsResult all = loops(done.problem, a.estimate);
+      add_rejections(all);
+      rows = csv(all);
+    }
+    Problem kept =
+        without_closures(done.problem, done.report.rejected.value_or(std::vector<std::size_t>{}));
+    const bool is_quick = kept.closures.size() <= kFew || !rows.empty();
+    if (is_quick && methods::why_no_ledger(kept).empty()) {
+      LoopsResult result = loops(std::move(kept), a.estimate);
+      result.is_kept = done.report.rejected.has_value();
+      done.verdict = verdict_text(result);
+      done.is_contradicted = methods::is_contradicted(result.ledger.verdict);
+    }
+  } catch (const std::runtime_error& error) {  // no ledger, or the joint solution fails
+    if (!a.ledger.empty()) {
+      done.report.notes.push_back(fmt::format("{} is not written: {}", a.ledger, error.what()));
+    }
+  }
+  if (!rows.empty()) write_file(a.ledger, rows);
+}
+
+}  // namespace
+
+Problem load_problem(const CorrectArguments& a,
+                     const Catalogue& catalogue,
+                     Provenance* provenance) {
+  const bool graph = is_graph(a);
+  if (graph && !(a.loops.empty() && a.frames.empty() && a.anchors.empty())) {
+    throw InputError(a.estimate +
+                     ": is a g2o graph, which contains its closures and has no stamps and no "
+                     "frames, expected no --loops, no --anchors and no --frames");
+  }
+  const DatasetEntry& dataset = find_dataset(catalogue, graph ? "pose_graph" : "trajectory");
+  Params options = parse_settings(a.settings, dataset.options);
+  options[graph ? "path" : "estimate"] = a.estimate;
+  if (!a.frames.empty()) options["frames"] = a.frames;
+  if (!a.anchors.empty()) options["anchors.file"] = a.anchors;
+  if (!a.loops.empty()) {
+    options["closures.file"] = a.loops;
+    options["closures.source"] = "file";
+  }
+  dataset.check(options);
+  Sequence loaded = dataset.load(options, DataRoot{{"."}});
+  Problem& out = loaded.problem;
+  if (a.start_equals_end) {
+    if (out.keyframes.size() < 3) throw InputError(a.estimate + ": has fewer than 3 keyframes");
+    out.closures.push_back(start_equals_end(out.keyframes, *a.start_equals_end));
+    sort_closures(out.closures);
+  }
+  check(out, a.estimate);
+  if (provenance != nullptr) *provenance = std::move(loaded.provenance);
+  return std::move(out);
+}
+
+FigureData before_and_after(const Correction& done) {
+  FigureData out{std::filesystem::path(done.estimate).filename().string(),
+                 done.method,
+                 {{.name = "before"}, {.name = "after", .style = 1}},
+                 {},
+                 {}};
+  const Trajectory* const poses[] = {&done.problem.keyframes, &done.keyframes};
+  for (std::size_t i = 0; i < out.curves.size(); ++i) {
+    add_poses(out.curves[i], *poses[i], 0.0);
+    thin(out.curves[i]);
+  }
+  return out;
+}
+
+Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
+  for (const std::string& file : {a.out, a.ledger}) {
+    if (file.empty() || is_dash(file)) continue;
+    reject_overwriting({a.estimate, a.loops, a.anchors, a.frames, a.at}, file);
+  }
+  const MethodChoice choice = method_without_reference(a.method, catalogue);
+  Provenance provenance;
+  Problem problem = load_problem(a, catalogue, &provenance);
+  const bool has_measurements = !problem.closures.empty() || !problem.anchors.empty();
+  if (!has_measurements && !is_graph(a) && uses_closures(choice, catalogue)) {
+    throw InputError(a.estimate + ": " + choice.label +
+                     " declines: the problem has no loop closures, expected --loops FILE");
+  }
+  std::size_t outside = 0;
+  const std::vector<double> at = output_stamps(a, problem, outside);
+  Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);
+  out.outside = outside;
+  out.provenance = std::move(provenance);
+  if (!a.ledger.empty() || uses_closures(choice, catalogue)) judge_closures(a, out);
+  const Rotation body_from_file = out.provenance.file_body_from_body.rotation.conjugate();
+  change_body(out.problem, body_from_file);
+  for (Trajectory* const poses : {&out.keyframes, &out.output}) change_body(*poses, body_from_file);
+  hold_first_fixed(out);
+  const std::vector<std::string>& notes = out.provenance.notes;
+  out.report.notes.insert(out.report.notes.begin(), notes.begin(), notes.end());
+  const bool loses_stamps = a.format == Format::kitti || a.format == Format::g2o;
+  if (!a.out.empty()) write(a, out);
+  if (!a.out.empty() && loses_stamps && !is_graph(a)) {
+    out.report.notes.push_back(to_text(a.format) + " does not contain stamps");
+  }
+  out.out = a.out;
+  return out;
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "datasets/core/closure_places.hpp"
+#include "harness/commands/correct/correct.hpp"
+#include "harness/sweep/catalogue/external_methods.hpp"
+#include "harness/sweep/config/choices.hpp"
+#include "harness/sweep/run/check_output.hpp"
+#include "harness/sweep/run/evaluation_notes.hpp"
+#include "metrics/correction/graph_cost.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+std::optional<std::vector<Residual>> residuals(const Problem& problem,
+                                               const Trajectory& keyframes) {
+  metrics::Evaluation evaluation;
+  evaluation.context.problem = &problem;
+  evaluation.context.estimate = &keyframes;
+  metrics::Statistics metres, degrees;  // zero without closures
+  try {
+    if (!problem.closures.empty()) {
+      const std::vector<metrics::Score> scores = metrics::closure_residual(evaluation);
+      metres = scores.at(0).statistics;
+      degrees = scores.at(1).statistics;
+    }
+    const std::vector<metrics::Score> cost = metrics::graph_cost(evaluation, {});
+    std::vector<Residual> out{{"translation_rms", "closure residual, rms [m]", metres.rmse},
+                              {"translation_max", "closure residual, max [m]", metres.max},
+                              {"rotation_rms", "closure residual, rms [deg]", degrees.rmse},
+                              {"rotation_max", "closure residual, max [deg]", degrees.max},
+                              {"chi2_odometry", "chi2 of odometry", cost.at(1).statistics.rmse},
+                              {"chi2_closures", "chi2 of closures", cost.at(2).statistics.rmse}};
+    if (problem.anchors.empty()) return out;
+    double sum = 0.0, max = 0.0;
+    for (const Anchor& anchor : problem.anchors) {
+      const double e = anchor_error(anchor, keyframes[anchor.keyframe].world_from_body).norm();
+      sum += e * e;
+      max = std::max(max, e);
+    }
+    const double rms = std::sqrt(sum / static_cast<double>(problem.anchors.size()));
+    out.push_back({"anchor_rms", "anchor error, rms [m]", rms});
+    out.push_back({"anchor_max", "anchor error, max [m]", max});
+    return out;
+  } catch (const std::runtime_error&) {  // an edge changes the scale
+    return std::nullopt;
+  }
+}
+
+std::optional<std::size_t> rejected_closures(const Correction& done) {
+  if (done.report.rejected) return done.report.rejected->size();
+  for (const methods::Count& count : done.report.counts) {
+    if (count.name == "closures_kept" || count.name == "closures_consistent") {
+      return done.problem.closures.size() - static_cast<std::size_t>(count.value);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue) {
+  MethodChoice out = method_choices(parse_entry(text, "--method"), catalogue).front();
+  for (const Choice& stage : out.stages) {
+    if (is_oracle(catalogue, stage.name)) {
+      throw InputError("--method: " + stage.name + " reads the reference, which is not given here");
+    }
+  }
+  return out;
+}
+
+Correction correct(Problem problem,
+                   const std::string& name,
+                   const MethodChoice& choice,
+                   const std::vector<double>& at,
+                   const Catalogue& catalogue) {
+  const auto method = make_method(choice, catalogue, {});
+  if (const std::string why = methods::reason_to_decline(*method, problem); !why.empty()) {
+    throw InputError(name + ": " + choice.label + " declines: " + why);
+  }
+  Correction out;
+  out.problem = std::move(problem);
+  out.estimate = name;
+  out.method = choice.label;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::unique_ptr<const Curve> curve = method->estimate(out.problem, out.report);
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  out.keyframes = curve->sample(stamps(out.problem.keyframes));
+  check(out.keyframes, choice.label);
+  check_covariances(out.report.covariances, out.keyframes.size());
+  out.output = curve->sample(at);
+  check(out.output, choice.label);
+  const Problem kept =
+      without_closures(out.problem, out.report.rejected.value_or(std::vector<std::size_t>{}));
+  out.before = residuals(kept, out.problem.keyframes);
+  out.after = residuals(kept, out.keyframes);
+  out.rejected = rejected_closures(out);
+  // Of the solver's start, not of the input.
+  std::erase_if(out.report.counts, [](const auto& c) { return c.name.ends_with("chi2_before"); });
+  for (std::string& note : closure_notes(kept)) out.report.notes.push_back(std::move(note));
+  return out;
+}
+
+}  // namespace loopbench::harness

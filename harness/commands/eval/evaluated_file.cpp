@@ -1,0 +1,209 @@
+#include "harness/commands/eval/evaluated_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "datasets/core/covariance.hpp"
+#include "datasets/core/fields.hpp"
+#include "datasets/formats/covariance_columns.hpp"
+#include "datasets/formats/stamp_unit.hpp"
+#include "datasets/formats/text_formats.hpp"
+#include "harness/commands/files/trajectory_selection.hpp"
+#include "metrics/protocols/protocols.hpp"
+#include "metrics/trajectory/position_only.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+Format reference_format(const EvalArguments& a) { return a.reference_format.value_or(a.format); }
+
+/// Keeps the poses with these indices.
+void keep(EvaluatedFile& file, const std::vector<std::size_t>& indices) {
+  const auto keep_in = [&](auto& all) {
+    if (all.empty()) return;
+    std::remove_reference_t<decltype(all)> kept;
+    for (const std::size_t i : indices) kept.push_back(all[i]);
+    all = std::move(kept);
+  };
+  keep_in(file.poses);
+  keep_in(file.matrices);
+  keep_in(file.findings.covariances);
+}
+
+/// Converts poses and covariances to another body.
+void change_body(EvaluatedFile& file,
+                 Trajectory (*convert)(Trajectory, const ReferenceBody&),
+                 const ReferenceBody& body) {
+  const Trajectory before = file.findings.covariances.empty() ? Trajectory() : file.poses;
+  file.poses = convert(std::move(file.poses), body);
+  displace(file.findings.covariances, before, file.poses);
+}
+
+EvaluatedFile read_estimate_file(const std::string& file,
+                                 Format format,
+                                 const std::string& covariances,
+                                 const EvalArguments& a,
+                                 bool with_digits,
+                                 const EvaluatedFile* other) {
+  EvaluatedFile out;
+  ReadOptions options = read_options(a);
+  if (other) options.origin = other->findings.origin;
+  options.format = format == Format::automatic ? detect_format(file) : format;
+  options.repeats = repeats_of(a);
+  if (!a.times.empty() && takes_times(file, options.format)) options.times = a.times;
+  options.findings = &out.findings;
+  out.poses = read_trajectory(file, options);
+  if (other) {
+    options.stamp_unit = better_unit(out.poses, out.findings, other->poses);
+    if (options.stamp_unit != StampUnit::automatic) {
+      out.findings = {};
+      out.poses = read_trajectory(file, options);
+    }
+    require_clear_unit(file, out.findings);
+  }
+  if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
+  out.clock = {file, out.findings.clock, out.poses.size() + out.findings.invalid};
+  const bool has_changed_rows = a.sort || a.drop_invalid;
+  if (options.format == Format::kitti && with_digits && !has_changed_rows) {
+    out.matrices = read_kitti_matrices(file);
+  }
+  if (!covariances.empty()) {
+    out.findings.covariances =
+        read_covariance_file(covariances, out.poses, out.findings.assumed_axes);
+  }
+  // Bags contain zeros if nothing is known.
+  const auto is_zero = [](const Matrix6& covariance) { return covariance.isZero(0.0); };
+  if (std::ranges::all_of(out.findings.covariances, is_zero)) out.findings.covariances.clear();
+  if (a.downsample) keep(out, evenly_spaced(out.poses.size(), *a.downsample));
+  if (a.motion_filter.size() == 2) {
+    keep(out, by_motion(out.poses, a.motion_filter[0], a.motion_filter[1]));
+  }
+  return out;
+}
+
+/// Whether any file has poses without stamps, those that take `times` or those of g2o.
+bool has_unstamped(bool for_times, const EvalArguments& a, const std::vector<EvaluatedRun>& runs) {
+  const auto is_wanted = [for_times](const std::string& file, Format format) {
+    const bool is_readable = std::filesystem::is_regular_file(file);
+    if (format == Format::automatic && is_readable) format = detect_format(file);
+    if (format == Format::g2o) return !for_times;
+    return is_readable ? takes_times(file, format) : format == Format::kitti;
+  };
+  return std::ranges::any_of(runs, [&](const EvaluatedRun& run) {
+    return is_wanted(run.reference, reference_format(a)) || is_wanted(run.estimate, a.format);
+  });
+}
+
+}  // namespace
+
+Repeats repeats_of(const EvalArguments& a) {
+  if (a.repeats) return *a.repeats;
+  const auto accepts_equal_stamps = [](const metrics::NamedProtocol& each) {
+    return each.rules.association == metrics::Association::evo ||
+           each.rules.association == metrics::Association::index;
+  };
+  return std::ranges::all_of(protocols(a), accepts_equal_stamps) ? Repeats::keep_all
+                                                                 : Repeats::refuse;
+}
+
+EvaluatedFile evaluated_reference(const std::string& file,
+                                  const EvalArguments& a,
+                                  bool with_digits,
+                                  const std::string& estimate) {
+  EvaluatedFile out = read_estimate_file(
+      file, reference_format(a), a.reference_covariances, a, with_digits, nullptr);
+  if (out.findings.units.size() > 1 && std::filesystem::is_regular_file(estimate)) {
+    try {
+      const EvaluatedFile other = read_estimate_file(estimate, a.format, "", a, false, nullptr);
+      const std::string& covariances = a.reference_covariances;
+      if (other.findings.has_clear_unit) {  // otherwise its unit is decided by the reference
+        out = read_estimate_file(file, reference_format(a), covariances, a, with_digits, &other);
+      }
+    } catch (const InputError&) {  // reported when the estimate is evaluated
+    }
+  }
+  require_clear_unit(file, out.findings);
+  if (a.start || a.end) {
+    const EvaluatedRange range = evaluated_range(a);
+    keep(out, within(out.poses, range.start, range.end));
+  }
+  if (out.poses.empty()) throw input_error(file, 0, "has no poses between --start and --end");
+  const ReferenceBody body = reference_body(a);
+  // The lever arm of a placeholder orientation would point into a wrong direction.
+  const bool has_placeholders = has_offset(body) && metrics::is_position_only(out.poses);
+  if (a.reference_positions || has_placeholders) {
+    for (StampedPose& pose : out.poses) pose.world_from_body.rotation = no_rotation();
+  }
+  change_body(out, to_estimate_body, body);
+  return out;
+}
+
+EvaluatedFile evaluated_estimate(const std::string& file,
+                                 const EvalArguments& a,
+                                 bool with_digits,
+                                 const EvaluatedFile* reference) {
+  EvaluatedFile out = read_estimate_file(file, a.format, a.covariances, a, with_digits, reference);
+  const ReferenceBody body = reference_body(a);
+  if (reference == nullptr || !lacks_rotations(reference->poses) || !has_offset(body)) return out;
+  if (metrics::is_position_only(out.poses)) {
+    throw InputError(file + ": --ref-body needs rotations, and neither file has any");
+  }
+  change_body(out, to_reference_body, body);
+  return out;
+}
+
+std::vector<std::string> reading_notes(const ReadFindings& findings, const std::string& whose) {
+  std::vector<std::string> out;
+  for (const std::string& note : reading_notes(findings)) out.push_back(whose + ": " + note);
+  if (findings.origin) out.push_back(whose + ": " + to_text(*findings.origin));
+  if (findings.assumed_axes) {
+    out.push_back(whose +
+                  ": the convention of the covariances is assumed, and '#%TANGENT_CONVENTION "
+                  "right_perturbation', left_perturbation or fixed_axes above the poses states it");
+  }
+  if (findings.without_fix > 0) {
+    out.push_back(whose + ": " + std::to_string(findings.without_fix) + " rows have no fix");
+  }
+  return out;
+}
+
+Params reading_options(const EvalArguments& a) {
+  const double period = a.period.value_or(ReadOptions{}.period);
+  if (!(period > 0.0)) {
+    throw OptionError("period", "period = " + to_text(period) + ": expected period > 0");
+  }
+  const Repeats repeats = repeats_of(a);
+  Params out{{"format", to_text(a.format)},
+             {"reference_format", to_text(reference_format(a))},
+             {"repeats", repeats == Repeats::keep_all ? "keep_all" : to_text(repeats)},
+             {"times", a.times},
+             {"reference_body", a.reference_body.value_or("")},
+             {"period", period}};
+  if (a.sort) out["sort"] = true;
+  if (a.drop_invalid) out["drop_invalid"] = true;
+  if (a.stamp_unit != StampUnit::automatic) out["stamp_unit"] = to_text(a.stamp_unit);
+  if (!a.covariances.empty()) out["covariances"] = a.covariances;
+  if (!a.reference_covariances.empty()) out["reference_covariances"] = a.reference_covariances;
+  if (a.start) out["start"] = *a.start;
+  if (a.end) out["end"] = *a.end;
+  if (a.downsample) out["downsample"] = static_cast<std::int64_t>(*a.downsample);
+  if (a.motion_filter.size() == 2) {
+    out["motion_filter"] = fmt::format("{} {}", a.motion_filter[0], a.motion_filter[1]);
+  }
+  return out;
+}
+
+void check_stamp_options(const EvalArguments& a, const std::vector<EvaluatedRun>& runs) {
+  if (!a.times.empty() && !has_unstamped(true, a, runs)) {
+    throw InputError(a.times + ": is a times file, but all files have stamps");
+  }
+  if (a.period && !(a.times.empty() && has_unstamped(true, a, runs)) &&
+      !has_unstamped(false, a, runs)) {
+    throw InputError("--period " + to_text(*a.period) +
+                     ": all files have stamps, expected KITTI poses without --times, or g2o");
+  }
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,178 @@
+/// What `eval` remarks about an evaluation: the diagnosis, the frame and accuracy of the reference.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "datasets/core/fields.hpp"
+#include "harness/commands/eval/file_evaluation.hpp"
+#include "harness/commands/eval/pairing_remedies.hpp"
+#include "harness/sweep/run/evaluation_notes.hpp"
+#include "metrics/checks/diagnostics.hpp"
+#include "metrics/checks/extrinsic_offset.hpp"
+#include "metrics/doctor/finding.hpp"
+#include "metrics/errors/ate.hpp"
+
+namespace loopbench::harness {
+
+/// The error without alignment, if the files are in one datum: as stated (converted from WGS 84
+/// about one origin), or frames that differ by less than a tenth of the reference's size, of which
+/// the alignment hides at least half; otherwise empty. O(n).
+inline std::string shared_datum(const metrics::Evaluation& evaluation, bool is_one_datum) {
+  constexpr double kNear = 0.1, kHidden = 0.5;
+  const metrics::Alignment& fit = evaluation.alignment;
+  const bool is_projected = evaluation.protocol.project != metrics::ProjectionPlane::none;
+  if (fit.type == metrics::Align::none || is_projected) return "";
+  const Pose estimate_from_reference = fit.reference_from_estimate.inverse();
+  const auto& pairs = evaluation.reference;
+  Vector3 mean = Vector3::Zero();
+  for (const auto& [stamp, pose] : pairs) {
+    mean += pose.translation / static_cast<double>(pairs.size());
+  }
+  double size = 0.0, aligned = 0.0, unaligned = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Vector3& expected = pairs[i].world_from_body.translation;
+    const Vector3& found = evaluation.estimate[i].world_from_body.translation;
+    size += (expected - mean).squaredNorm();
+    aligned += (found - expected).squaredNorm();
+    unaligned += (estimate_from_reference * found / fit.scale - expected).squaredNorm();
+  }
+  const bool is_near =
+      unaligned <= kNear * kNear * size && aligned <= kHidden * kHidden * unaligned;
+  if (!is_one_datum && !is_near) return "";
+  const auto count = static_cast<double>(pairs.size());
+  return fmt::format(
+      "datum: both files {} in the same frame: ATE {:.4g} m without alignment (--align none), "
+      "{:.4g} m "
+      "with {}",
+      is_one_datum ? "are" : "seem to be",
+      std::sqrt(unaligned / count),
+      std::sqrt(aligned / count),
+      to_text(fit.type));
+}
+
+/// Whether the ATE exceeds the reference's own error of `sigma` [m] per axis; empty for 0. O(n).
+inline std::string reference_error(const metrics::Evaluation& evaluation, double sigma) {
+  if (sigma == 0.0) return "";
+  const double own = std::sqrt(3.0) * sigma;
+  const double error = metrics::ate(evaluation, {}).front().statistics.rmse;
+  const std::string text =
+      fmt::format("reference: {:g} m per axis are a position error of {:.3g} m (rmse)", sigma, own);
+  if (error <= own) {
+    return text + fmt::format(": the ATE of {:.3g} m is below it and shows nothing else", error);
+  }
+  return text + fmt::format("; without it, an ATE of {:.4g} m would be about {:.4g} m",
+                            error,
+                            std::sqrt(error * error - own * own));
+}
+
+/// What pairs more poses, if less than half of the file with fewer are paired; otherwise empty.
+inline std::string few_pairs(const metrics::Evaluation& evaluation,
+                             const Trajectory& reference,
+                             const Trajectory& estimate) {
+  const auto& [pairs, possible, span, bridged] = evaluation.coverage;
+  if (2 * pairs >= std::min(possible, reference.size())) return "";
+  const std::string remedies = pairing_remedies(reference, estimate, evaluation.protocol);
+  return remedies.empty() ? ""
+                          : fmt::format("{} of {} poses are paired", pairs, possible) + remedies;
+}
+
+/// A note if the files have no stamps, and therefore pairs of rows; otherwise empty.
+inline std::string paired_rows(const metrics::Evaluation& evaluation,
+                               const FileClock& one,
+                               const FileClock& other) {
+  const bool by_rows = one.clock == Clock::rows && other.clock == Clock::rows;
+  if (!by_rows || one.rows != other.rows || evaluation.protocol.offset != 0.0) return "";
+  return fmt::format("paired by row: the files have {} rows each and no stamps", one.rows);
+}
+
+/// Whether a finding of the doctor explains errors that another body would explain, too.
+inline bool explains_other_body(const std::string& note) {
+  using metrics::Fault;
+  constexpr std::array kFaults{Fault::time_offset,
+                               Fault::constant_rotation,
+                               Fault::inverted_poses,
+                               Fault::quaternion_order,
+                               Fault::axes,
+                               Fault::mirrored,
+                               Fault::wrong_recording};
+  return std::ranges::any_of(kFaults, [&](Fault::Name fault) {
+    return note.starts_with("doctor: " + std::string(fault) + ":");
+  });
+}
+
+/// Poses with the increasing stamps that the doctor needs: the first pose of each stamp, or
+/// multiples of the period. Copies into `kept` only if some change.
+inline const Trajectory& for_doctor(const Trajectory& poses, bool by_index, Trajectory& kept) {
+  if (by_index) {
+    kept = poses;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      kept[i].stamp = static_cast<double>(i) * ReadOptions{}.period;
+    }
+    return kept;
+  }
+  const auto are_equal = [](const auto& a, const auto& b) { return a.stamp == b.stamp; };
+  if (std::ranges::adjacent_find(poses, are_equal) == poses.end()) return poses;
+  kept = poses;
+  kept.erase(std::unique(kept.begin(), kept.end(), are_equal), kept.end());
+  return kept;
+}
+
+/// Which alignment was taken, if a trajectory is in one plane and the protocol decides. O(n).
+inline std::string plane_note(const metrics::Evaluation& evaluation) {
+  const metrics::Align align = evaluation.protocol.align;
+  const bool is_fitted = align == metrics::Align::se3 || align == metrics::Align::sim3;
+  if (evaluation.protocol.planar == Planar::no || !is_fitted) return "";
+  if (evaluation.protocol.planar == Planar::yes) {
+    return std::string("planar, as set: both trajectories were moved to their planes") +
+           (evaluation.planar ? " and aligned there"
+                              : ", but all six degrees of freedom are aligned, because their "
+                                "bodies (of positions: their worlds) have different axes");
+  }
+  if (evaluation.planar) {
+    return "planar: both trajectories are in one plane, so they are aligned in x, y and yaw "
+           "(--planar no aligns all six)";
+  }
+  const bool is_reference = motion_plane(evaluation.reference).has_value();
+  const bool is_estimate = motion_plane(evaluation.estimate).has_value();
+  if (!is_reference && !is_estimate) return "";
+  return std::string("spatial: ") +
+         (is_reference && is_estimate ? "both trajectories are in one plane, but their bodies have "
+                                        "different axes"
+          : is_reference              ? "the reference is in one plane, but the estimate is not"
+                                      : "the estimate is in one plane, but the reference is not") +
+         ", so all six degrees of freedom are aligned";
+}
+
+/// Sets diagnosis, notes and other_body. O(n log n).
+inline void add_checks(EvaluationResult& out,
+                       const metrics::Evaluation& evaluation,
+                       const EvaluatedFile& reference,
+                       const EvaluatedFile& estimate,
+                       const EvaluatedSweep& files) {
+  out.diagnosis = metrics::diagnostics(evaluation, {});
+  out.notes = evaluation_notes(reference.poses, evaluation);
+  for (const std::string& note :
+       {shared_datum(evaluation, reference.findings.origin && estimate.findings.origin),
+        reference_error(evaluation, files.arguments.reference_sigma),
+        paired_rows(evaluation, reference.clock, estimate.clock),
+        few_pairs(evaluation, reference.poses, estimate.poses),
+        plane_note(evaluation)}) {
+    if (!note.empty()) out.notes.push_back(note);
+  }
+  const double off_unit = std::max(reference.findings.off_unit, estimate.findings.off_unit);
+  for (metrics::Score& score : out.diagnosis) {
+    // Readers normalise, so the value is that of the files.
+    if (score.relation == "off_unit") score = metrics::single("off_unit", "", "1", off_unit);
+  }
+  const std::size_t left_out = reference.findings.repeated + estimate.findings.repeated;
+  out.diagnosis.push_back(metrics::single("left_out", "", "1", static_cast<double>(left_out)));
+  if (const auto offset = metrics::extrinsic_offset(evaluation, {})) {
+    out.other_body = metrics::other_body(*offset, pose_of(files.body));
+  }
+}
+
+}  // namespace loopbench::harness

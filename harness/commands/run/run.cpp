@@ -1,0 +1,274 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <thread>
+
+#include "harness/answers/tables/store_tables.hpp"
+#include "harness/commands/checks.hpp"
+#include "harness/commands/commands.hpp"
+#include "harness/commands/config_path.hpp"
+#include "harness/commands/interruption.hpp"
+#include "harness/commands/run/run_output.hpp"
+#include "harness/commands/standard_output.hpp"
+#include "harness/sweep/catalogue/external_methods.hpp"
+#include "harness/sweep/catalogue/load_sequence.hpp"
+#include "harness/sweep/config/read_sweep.hpp"
+#include "harness/sweep/process/sandbox.hpp"
+#include "harness/sweep/process/write_file.hpp"
+#include "harness/sweep/run/build.hpp"
+#include "harness/sweep/run/estimate_files.hpp"
+#include "harness/sweep/run/isolated_sweep.hpp"
+#include "harness/sweep/run/run_cell.hpp"
+#include "harness/sweep/store/shard.hpp"
+#include "harness/sweep/store/store.hpp"
+#include "harness/sweep/text/counted.hpp"
+#include "harness/sweep/text/print_error.hpp"
+#include "harness/sweep/text/printable.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+struct RunArguments {
+  std::string config;
+  std::string only;
+  std::string data;
+  std::string out;
+  std::vector<std::filesystem::path> plugins;
+  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::string shard;  ///< "3/8"; empty: all cells
+  bool dry_run = false;
+  std::string retry = "none";
+  bool fresh = false;
+  bool failed_cells_ok = false;
+  bool no_sandbox = false;
+  bool save_trajectories = false;
+};
+
+/// Larger sweeps get no tables and no summary after each run, because they take longer than
+/// matching the store with its config and all records do not fit into memory; `table` and `export`
+/// read them a few sequences at a time.
+constexpr std::size_t kMostCellsInTables = 100'000;
+
+/// Whether the method or a metric failed.
+bool has_failure(const CellResult& result) {
+  return is_failure(result.status) ||
+         std::ranges::any_of(result.scores,
+                             [](const ScoreResult& score) { return is_failure(score.status); });
+}
+
+/// The folders that relative paths are searched in: the config's, then `data` if given.
+DataRoot data_root(const Sweep& sweep, const std::string& data) {
+  const std::filesystem::path beside = sweep.config.parent_path();
+  DataRoot root{{beside.empty() ? "." : beside}};
+  if (data.empty()) return root;
+  if (!std::filesystem::is_directory(data)) {
+    throw InputError(data +
+                     ": is not a folder; set --data or $LOOPBENCH_DATA to a folder with data");
+  }
+  root.folders.emplace_back(data);
+  return root;
+}
+
+/// What to run, and where the results go.
+struct RunPlan {
+  Catalogue known;
+  Sweep sweep;
+  DataRoot root;
+  std::vector<Cell> all;
+  std::vector<Cell> selected;  ///< of --only
+  std::vector<Cell> planned;   ///< of those, the shard's
+  std::optional<Shard> shard;
+  std::filesystem::path given;  ///< folder of the sweep's results
+  std::filesystem::path out;    ///< folder of the store
+
+  std::filesystem::path store() const { return out / "results.sqlite"; }
+};
+
+/// Throws InputError.
+RunPlan plan(const RunArguments& arguments) {
+  RunPlan out;
+  const std::filesystem::path config = config_path(arguments.config);
+  out.known = catalogue(with_config_plugins(arguments.plugins, config));
+  out.sweep = read_sweep(config, out.known, arguments.data);
+  out.root = data_root(out.sweep, arguments.data);
+  const std::vector<bool> with_seed = seeded(out.sweep, out.known);
+  out.all = cells(out.sweep, with_seed, "");
+  out.selected = cells(out.sweep, with_seed, arguments.only);
+  if (out.selected.empty()) throw InputError(arguments.config + ": no cells to run");
+  reject_standard_output("--out", arguments.out);
+  out.given = arguments.out.empty() ? "results/" + out.sweep.name : arguments.out;
+  if (!arguments.shard.empty()) out.shard = parse_shard(arguments.shard);
+  out.planned = cells_of(out.shard.value_or(Shard{}), out.selected);
+  out.out = out.shard ? out.given / "shards" / out.shard->folder() : out.given;
+  return out;
+}
+
+/// Runs the cells that the store lacks and writes them to it.
+CellCounts compute(const RunPlan& plan,
+                   const RunArguments& arguments,
+                   CellKeys& keys,
+                   Store& store) {
+  const Sweep& sweep = plan.sweep;
+  const Resumed resumed = store.resume(plan.all, plan.planned, *from_text<Retry>(arguments.retry));
+  report_damage(resumed, plan.store());
+  CellCounts out{resumed.there, resumed.there, resumed.failed, resumed.incomplete};
+  const StopRequests& interrupted = install_interrupt_handler();
+  if (arguments.save_trajectories && resumed.there > 0) {
+    print_error(
+        "loopbench: {} of earlier runs: their trajectories stay as they were saved, if at all; "
+        "--retry all recomputes them\n",
+        counted(resumed.there, "cell"));
+  }
+  if (resumed.missing.empty()) return out;
+  Progress progress(resumed.missing.size());
+  const std::vector<InputFile> no_inputs;
+  std::map<std::string, std::pair<std::string, int>> unsteady;  // first note of a method, count
+  const auto finished = [&](const CellResult& r) {
+    if (r.status == Status::interrupted) {
+      ++out.abandoned;
+      return;
+    }
+    store.write(r);
+    keep_estimate(r.cell, keys.key(r.cell, r.metadata ? r.metadata->inputs : no_inputs));
+    const std::string& method = sweep.methods[r.cell.method].label;
+    ++out.done;
+    if (has_failure(r)) ++out.failed;
+    if (r.status == Status::incomplete) ++out.incomplete;
+    for (const std::string& note : r.report.notes) {
+      if (!note.starts_with(kNondeterministic)) continue;
+      auto& [first, count] = unsteady[method];
+      if (count++ == 0) first = note;
+    }
+    progress.step(sweep.datasets[r.cell.dataset].label + " / " + method);
+  };
+  const SandboxOptions sandbox = program_sandbox();
+  run_isolated({sweep, resumed.missing, plan.known, plan.root, sandbox},
+               arguments.jobs,
+               interrupted,
+               finished);
+  for (const auto& [method, note] : unsteady) {
+    const int others = note.second - 1;
+    const std::string more = others == 0 ? "" : fmt::format(" (and {} more cells)", others);
+    print_error("{}\n", printable(method + ": " + note.first + more));
+  }
+  return out;
+}
+
+/// Prints the results, and writes the tables of a complete sweep. Closes the store.
+void tell(const RunPlan& plan, const CellCounts& counts, std::optional<Store>& store) {
+  if (plan.shard) {
+    store->close();
+    fmt::print("shard {}: {} of {} cells done, {} failed\n{}\nnext, with all shards:\n  {}\n",
+               plan.shard->name(),
+               counts.done,
+               plan.planned.size(),
+               counts.failed,
+               printable(plan.store().string()),
+               merge_command(plan.given));
+  } else {
+    const bool has_tables = plan.all.size() <= kMostCellsInTables;
+    if (has_tables) {
+      const std::vector<Record> records =
+          all_records(plan.store(), asked_by(plan.sweep.table, plan.sweep.table.where));
+      // Methods of an interrupted sweep have different runs: their means are no comparison.
+      if (stop_requests == 0) fmt::print("{}", summary_text(records, plan.sweep));
+      write_tables(plan.store(), plan.sweep, records, plan.out);
+    }
+    store->close();
+    store.reset();
+    const char* const files =
+        has_tables ? "{results.sqlite,table.md,table.csv,rows.csv}" : "results.sqlite";
+    const std::string no_tables =
+        has_tables ? ""
+                   : fmt::format("more than {} cells: no tables and summary\n", kMostCellsInTables);
+    fmt::print("{}\n{}{}\n{}",
+               fitted(status_text(counts, plan.planned.size(), plan.sweep)),
+               no_tables,
+               printable((plan.out / files).string()),
+               next_commands(plan.out));
+  }
+  if (stop_requests == 0) return;
+  print_error(
+      "loopbench: interrupted{}; finished cells are kept, the others run next time\n",
+      counts.abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", counts.abandoned));
+}
+
+SandboxOptions sandbox_of(const RunPlan& plan, const RunArguments& arguments) {
+  SandboxOptions out;
+  out.enabled = !arguments.no_sandbox;
+  out.hidden = {plan.given, plan.given / "results.sqlite"};
+  if (!arguments.data.empty()) out.hidden.emplace_back(arguments.data);
+  return out;
+}
+
+/// Returns the exit code. Throws InputError, MissingPart.
+int run_config(const RunArguments& arguments, const Source& source) {
+  const RunPlan planned = plan(arguments);
+  program_sandbox() = sandbox_of(planned, arguments);  // from here on programs can be started
+  if (arguments.dry_run) {
+    return dry_run(planned.sweep, planned.planned, planned.known, planned.root);
+  }
+  require_parts(planned.sweep, planned.planned, planned.known);
+  if (planned.planned.empty() && planned.shard) {
+    fmt::print("shard {} has no cells\n", planned.shard->name());
+    return kExitOk;
+  }
+  std::map<std::string, std::string> facts = provenance(source, planned.sweep, planned.known);
+  if (arguments.save_trajectories) set_estimate_folder(planned.out / "trajectories");
+  if (uses_programs(planned.sweep)) facts["sandbox"] = is_sandboxed() ? "bubblewrap" : "none";
+  CellKeys keys(planned.sweep, planned.known, planned.root, build_id(source.code));
+  std::optional<Store> store(std::in_place, planned.store(), keys, facts, arguments.fresh);
+  if (planned.shard) {
+    store->set_shard(planned.shard->name() + " " + division_hash(planned.selected));
+  }
+  const CellCounts counts = compute(planned, arguments, keys, *store);
+  if (counts.done == 0) return kExitInterrupted;
+  tell(planned, counts, store);
+  const bool is_failure = counts.failed > 0 && !arguments.failed_cells_ok;
+  return stop_requests > 0 ? kExitInterrupted : is_failure ? kExitSomeCellsFailed : kExitOk;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code, const Source& source) {
+  auto arguments = std::make_shared<RunArguments>();
+  RunArguments& a = *arguments;
+  CLI::App& command = *app.add_subcommand("run", "Run the sweep of a config and print a summary");
+  declare_config(command, a.config);
+  add(command, "--only REGEX", a.only, "Only cells whose 'SEQUENCE / METHOD' matches");
+  add(command,
+      "--shard I/N",
+      a.shard,
+      "Only this part of N, into its own store OUT/shards/I-of-N; see `merge`");
+  command.add_flag("--dry-run",
+                   a.dry_run,
+                   "Check the config and its input files and list the cells without running them");
+  add(command, "-j,--jobs", a.jobs, "Number of workers; does not affect results")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command.add_flag("--save-trajectories",
+                   a.save_trajectories,
+                   "Save every cell's estimate at full length, see `export --what trajectories`");
+  command.add_flag("--failed-cells-ok",
+                   a.failed_cells_ok,
+                   "Exit with 0 if cells failed: they are results, too, and have their reasons");
+  command.add_flag("--no-sandbox", a.no_sandbox, "Let external programs read all files");
+  add(command, "--data DIR", a.data, "Folder with real datasets")->envname("LOOPBENCH_DATA");
+  add(command, "-o,--out DIR", a.out, "Output folder (default: results/CONFIG)");
+  add(command, "--plugin FILE", a.plugins, "Shared object with methods, datasets or metrics")
+      ->allow_extra_args(false);
+  add(command,
+      "--retry",
+      a.retry,
+      "Stored cells to recompute in addition to damaged ones: failed, or all")
+      ->check(CLI::IsMember({"none", "failed", "all"}))
+      ->capture_default_str();
+  command.add_flag(
+      "--fresh", a.fresh, "Recompute all cells; keep the old store as previous-N.sqlite");
+  command.callback([arguments, source, &exit_code] { exit_code = run_config(*arguments, source); });
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,118 @@
+#include "harness/sweep/model/record.hpp"
+
+#include <limits>
+
+#include "datasets/core/error.hpp"
+#include "harness/sweep/text/suggest.hpp"
+
+namespace loopbench::harness {
+
+double CellRow::milliseconds() const {
+  const bool is_unknown = runs == 0 && has_numbers(status);
+  return is_unknown ? std::numeric_limits<double>::quiet_NaN() : seconds * 1000;
+}
+
+std::string CellRow::run_name() const {
+  return repeat == 0 ? sequence.text() : sequence + " (repeat " + std::to_string(repeat) + ")";
+}
+
+std::string ScoreKind::short_name() const {
+  std::string out = metric_label();
+  if (relation != "translation" && relation != "rotation") out += " " + relation;
+  if (axis != "3d") out += " " + axis;
+  while (out.ends_with(' ')) out.pop_back();
+  return out;
+}
+
+std::string ScoreKind::name() const {
+  std::string out = metric_label();
+  for (const std::string& word : {relation, axis}) {
+    if (!word.empty()) out += " " + word;
+  }
+  return out + ", " + times + ", " + protocol;
+}
+
+namespace {
+
+/// The value in "dual, use=all; + dm, planar=3, spatial=0".
+std::optional<std::string> option_of(const CellRow& cell, const std::string& name) {
+  const std::string& all = cell.all_method_options;
+  const std::size_t at = all.find(" " + name + "=");
+  if (at == std::string::npos) return std::nullopt;
+  const std::size_t begin = at + name.size() + 2;
+  return all.substr(begin, std::min(all.find(", ", begin), all.find("; + ", begin)) - begin);
+}
+
+std::vector<std::string> known_fields() {
+  std::vector<std::string> out{"sequence", "repeat", "method", "closures"};
+  for (const KindField& each : kKindFields) out.emplace_back(each.name);
+  out.insert(out.end(), {"status", "score"});
+  return out;
+}
+
+}  // namespace
+
+bool has_field(const Record& record, const std::string& name) {
+  return std::ranges::count(known_fields(), name) > 0 || option_of(*record.cell, name);
+}
+
+std::string field(const Record& record, const std::string& name) {
+  if (name == "sequence") return record.cell->sequence;
+  if (name == "repeat") return std::to_string(record.cell->repeat);
+  if (name == "method") return record.cell->method;
+  if (name == "closures") return record.cell->closures;
+  if (name == "label") return record.kind->metric_label();
+  if (name == "status") return to_text(record.status);
+  if (name == "score") return record.kind->short_name();
+  for (const KindField& each : kKindFields) {
+    if (name == each.name) return (*record.kind).*each.text;
+  }
+  if (const auto option = option_of(*record.cell, name)) return *option;
+  throw InputError(unknown_name("column", name, known_fields()));
+}
+
+double value(const Record& record, const std::string& name) {
+  if (name == "count") return static_cast<double>(record.statistics.count);
+  return record.statistics.*member_of(name);
+}
+
+double metrics::Statistics::*member_of(const std::string& statistic) {
+  const std::string name = statistic == "p50" ? "median" : statistic;
+  for (const auto& each : metrics::kStatisticFields) {
+    if (name == each.name) return each.member;
+  }
+  throw InputError(unknown_name("statistic", statistic, statistic_names()));
+}
+
+std::vector<std::string> statistic_names() {
+  std::vector<std::string> out;
+  for (const auto& field : metrics::kStatisticFields) out.emplace_back(field.name);
+  out.emplace_back("count");
+  return out;
+}
+
+std::vector<std::string> directed_statistics() {
+  std::vector<std::string> out = statistic_names();
+  std::erase_if(out, [](const std::string& name) { return !has_direction(name); });
+  return out;
+}
+
+bool has_direction(const std::string& statistic) {
+  return statistic != "count" && statistic != "sse";
+}
+
+metrics::Better direction_of(const ScoreKind& kind, const std::string& statistic) {
+  return has_direction(statistic) ? kind.better : metrics::Better::neither;
+}
+
+std::string unit_of(const ScoreKind& kind, const std::string& statistic) {
+  const std::string& unit = kind.unit;
+  if (statistic == "count") return "";
+  // The sum of squares of a gain is the gain of the sum of squares.
+  const bool is_squared = statistic == "sse" && kind.metric != "gain";
+  if (!is_squared || unit.empty() || unit == "1") return unit;
+  const bool is_product = unit.find_first_of("/* ^") != std::string::npos;
+  return (is_product ? "(" + unit + ")" : unit) + "^2";
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,208 @@
+#include "harness/sweep/run/evaluation_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "datasets/core/polyline.hpp"
+#include "metrics/checks/association_error.hpp"
+#include "metrics/doctor/diagnose.hpp"
+#include "metrics/doctor/graph_checks.hpp"
+#include "metrics/errors/ate.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// Number of parameters estimated from all pairs; 0 for alignments that do not use all pairs.
+int fitted_parameters(const metrics::Evaluation& evaluation) {
+  const auto first = static_cast<std::size_t>(evaluation.protocol.align_first);
+  if (first > 0 && first < evaluation.coverage.pairs) return 0;
+  switch (evaluation.alignment.type) {
+    case metrics::Align::se3:
+      return evaluation.planar ? 3 : 6;
+    case metrics::Align::sim3:
+      return evaluation.planar ? 4 : 7;
+    case metrics::Align::posyaw:
+      return 4;
+    case metrics::Align::scale:
+    case metrics::Align::origin:
+    case metrics::Align::posyaw_origin:
+    case metrics::Align::none:
+      break;
+  }
+  return 0;
+}
+
+std::string few_pairs(const metrics::Evaluation& evaluation) {
+  constexpr double kMost = 0.1;  // parameters per coordinate; errors are then 5 % too small
+  const std::size_t coordinates = (evaluation.planar ? 2 : 3) * evaluation.coverage.pairs;
+  const int parameters = fitted_parameters(evaluation);
+  const double share = parameters / static_cast<double>(coordinates);
+  if (share <= kMost) return "";
+  const double bias = share < 1.0 ? 1.0 - std::sqrt(1.0 - share) : 1.0;
+  return fmt::format(
+      "few pairs: {} pairs have {} coordinates, and alignment {} fits {} parameters to them, so "
+      "the errors are about {:.0f} % too small",
+      evaluation.coverage.pairs,
+      coordinates,
+      to_text(evaluation.alignment.type),
+      parameters,
+      100.0 * bias);
+}
+
+std::string stamp_differences(const Trajectory& reference, const metrics::Evaluation& evaluation) {
+  constexpr double kNegligible = 0.2;  // of the ATE; independent errors then add 2 %
+  constexpr double kRounding = 1e-6;   // [s]
+  const auto found = metrics::association_error(reference, evaluation);
+  if (!found) return "";
+  const Trajectory* const estimate = evaluation.context.estimate;
+  const bool is_sparse = estimate != nullptr && reference.size() < estimate->size();
+  const double error = metrics::ate(evaluation, {}).front().statistics.rmse;
+  if (found->largest_difference < kRounding || found->metres <= kNegligible * error) return "";
+  return fmt::format(
+      "association: the stamps of paired poses differ by up to {:.3g} s; at the reference's speed "
+      "this is an error of {:.3g} m (rmse), with an ATE of {:.3g} m; use association {}",
+      found->largest_difference,
+      found->metres,
+      error,
+      is_sparse ? "interpolate_estimate" : "interpolate");
+}
+
+std::string bridged(const metrics::Evaluation& evaluation) {
+  if (evaluation.coverage.bridged == 0.0) return "";
+  const bool is_evaluated = evaluation.protocol.max_estimate_gap == 0.0;
+  return fmt::format(
+      "tracking gaps: {:.3g} s between keyframes are bridged without a measurement, "
+      "and {} (max_estimate_gap)",
+      evaluation.coverage.bridged,
+      is_evaluated ? "evaluated nevertheless" : "not evaluated");
+}
+
+void note_once(std::vector<std::string>& list, const std::string& text) {
+  if (!text.empty() && std::ranges::count(list, text) == 0) list.push_back(text);
+}
+
+/// Notes of findings with a confidence of at least 0.5; `loopbench doctor` itself prints all.
+std::vector<std::string> notes_of(const std::vector<metrics::InputFinding>& findings) {
+  constexpr double kSure = 0.5;
+  std::vector<std::string> out;
+  for (const metrics::InputFinding& finding : findings) {
+    if (finding.confidence >= kSure) out.push_back("doctor: " + text(finding));
+  }
+  return out;
+}
+
+/// What the protocols leave.
+std::vector<metrics::InputFinding> findings_of(
+    const ReadPair& pair, const std::vector<metrics::NamedProtocol>& protocols) {
+  if (protocols.empty() || pair.reference.empty() || pair.estimate.empty()) return {};
+  const double offset = protocols.front().rules.offset;
+  Trajectory shifted;
+  if (offset != 0.0) {
+    shifted = pair.estimate;
+    for (StampedPose& pose : shifted) pose.stamp += offset;
+  }
+  std::vector<metrics::InputFinding> out =
+      metrics::diagnosis(pair.reference,
+                         offset != 0.0 ? shifted : pair.estimate,
+                         pair.reference_name,
+                         pair.estimate_name,
+                         pair.has_stamps)
+          .findings;
+  const bool is_aligned = std::ranges::all_of(protocols, [](const metrics::NamedProtocol& each) {
+    const metrics::Align align = each.rules.align;
+    return align == metrics::Align::sim3 || align == metrics::Align::scale;
+  });
+  std::erase_if(out, [&](metrics::InputFinding& finding) {
+    if (finding.fault == metrics::Fault::time_offset) {
+      // The option replaces the offset that is already applied.
+      finding.value += offset;
+      finding.fix = fmt::format("--offset {:.4f}", finding.value);
+    }
+    return finding.fault == metrics::Fault::other_body ||  // the evaluation has a note of its own
+           (finding.fault == metrics::Fault::scale && is_aligned);
+  });
+  return out;
+}
+
+/// Stamps that readers generate begin at zero.
+bool has_own_stamps(const Trajectory& poses) { return poses.front().stamp != 0.0; }
+
+}  // namespace
+
+std::vector<std::string> evaluation_notes(const Trajectory& reference,
+                                          const metrics::Evaluation& evaluation) {
+  std::vector<std::string> out;
+  note_once(out, stamp_differences(reference, evaluation));
+  note_once(out, few_pairs(evaluation));
+  note_once(out, bridged(evaluation));
+  return out;
+}
+
+std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep& sweep) {
+  constexpr double kLowCoverage = 0.5;
+  std::vector<std::string> out;
+  const Problem& problem = sequence.problem;
+  if (sequence.reference.empty() || problem.keyframes.empty()) return out;
+  for (const metrics::NamedProtocol& protocol : sweep.protocols) {
+    for (const metrics::Times times : sweep.times) {
+      try {
+        const metrics::Evaluation evaluation = metrics::evaluate(sequence.reference,
+                                                                 Polyline(problem.keyframes),
+                                                                 stamps(problem.keyframes),
+                                                                 times,
+                                                                 protocol.rules,
+                                                                 metrics::tracked_stamps(problem));
+        const metrics::Coverage& covered = evaluation.coverage;
+        if (covered.least() < kLowCoverage) {
+          note_once(
+              out,
+              fmt::format("low coverage: {} of {} poses over {:.1f} % of the reference's time",
+                          covered.pairs,
+                          covered.possible,
+                          100.0 * covered.span));
+        }
+        for (const std::string& note : evaluation_notes(sequence.reference, evaluation)) {
+          note_once(out, note);
+        }
+      } catch (const std::runtime_error&) {
+        // No pairs or no unique alignment: every cell reports that itself.
+      }
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> doctor_notes(const ReadPair& pair,
+                                      const std::vector<metrics::NamedProtocol>& protocols) {
+  return notes_of(findings_of(pair, protocols));
+}
+
+std::vector<std::string> doctor_notes(const Sequence& sequence, const Sweep& sweep) {
+  const Provenance& source = sequence.provenance;
+  const Problem& problem = sequence.problem;
+  if (source.inputs.empty() || !source.noise.empty() || problem.keyframes.empty()) return {};
+  std::vector<metrics::InputFinding> found = metrics::check_closures(problem);
+  if (!sequence.reference.empty()) {
+    const bool has_stamps = has_own_stamps(sequence.reference) && has_own_stamps(problem.keyframes);
+    const ReadPair pair{
+        sequence.reference, problem.keyframes, source.reference.string(), "", has_stamps};
+    for (metrics::InputFinding& finding : findings_of(pair, sweep.protocols)) {
+      if (finding.fault == metrics::Fault::time_offset) {
+        finding.fix = fmt::format("protocol: {{offset: {:.4f}}}", finding.value);
+      } else if (finding.fault == metrics::Fault::scale) {
+        finding.fix = "protocol: {align: sim3}";
+      }
+      found.push_back(std::move(finding));
+    }
+  }
+  return notes_of(found);
+}
+
+std::vector<std::string> closure_notes(const Problem& problem) {
+  return notes_of(metrics::check_closures(problem));
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,285 @@
+#include "harness/sweep/store/stored_cells.hpp"
+
+#include <algorithm>
+#include <set>
+#include <span>
+#include <string_view>
+
+#include "datasets/core/error.hpp"
+#include "datasets/core/parallel.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// Whether SQLite finds no error in these tables (names in parentheses, or "" for all). Hashes
+/// protect only rows that are found, and a damaged index hides some.
+bool has_sound_structure(Database& database, const std::vector<std::string>& tables) {
+  return std::ranges::all_of(tables, [&](const std::string& table) {
+    Statement row = database.prepare("PRAGMA integrity_check" + table);
+    return row.step() && row.text() == "ok";
+  });
+}
+
+const std::vector<std::string> kSearched{
+    "(run)", "(provenance)", "(input)", "(sequence)", "(cell)"};
+
+void require_none_damaged(Database& database, const std::vector<StoredCell>& cells) {
+  const auto damaged = std::ranges::count(cells, false, &StoredCell::intact);
+  if (damaged > 0) {
+    const std::string more = std::to_string(damaged - 1);
+    throw_damaged(database.file(),
+                  label_of(*std::ranges::find(cells, false, &StoredCell::intact)) +
+                      (damaged == 1 ? " is" : " and " + more + " more are"));
+  }
+  if (written_cells(database) != std::ssize(cells) || !has_sound_structure(database, kSearched)) {
+    throw_damaged(database.file(), "the structure of its tables is");
+  }
+}
+
+/// Cells by id, and the hash of the rows of each.
+struct HashedCells {
+  std::span<StoredCell> cells;
+  std::span<std::uint64_t> hashes;
+};
+
+/// Continues the hashes of the cells with their rows in the tables of traces, or in the others;
+/// cells of which a score has no intact definition are marked.
+void add_rows(Database& database,
+              const HashedCells& all,
+              bool of_traces,
+              const std::vector<std::int64_t>& definitions) {
+  const std::span<StoredCell> cells = all.cells;
+  if (cells.empty()) return;
+  for (const CellTable& table : kCellTables) {
+    if (table.is_trace != of_traces) continue;
+    const bool has_definitions = table.name == std::string_view(kScoreTable);
+    std::size_t i = 0;
+    const auto add = [&](const RowValues& row) {
+      const std::int64_t id = row.integer(0);
+      while (i < cells.size() && cells[i].id < id) ++i;
+      if (i == cells.size() || cells[i].id != id) return;
+      all.hashes[i] = row.hashed(all.hashes[i], 1);
+      if (!has_definitions || !cells[i].intact) return;
+      cells[i].intact = std::ranges::binary_search(definitions, row.integer(2));
+    };
+    database.for_each_row(table.name, cells.front().id, cells.back().id, add);
+  }
+}
+
+/// The same by several threads, each with its own connection.
+void add_rows_in_parts(Database& database,
+                       const HashedCells& all,
+                       bool of_traces,
+                       const std::vector<std::int64_t>& definitions) {
+  constexpr std::size_t kLeast = 1000;  // cells; fewer are not worth a connection
+  const std::size_t count = all.cells.size();
+  const std::size_t parts = std::clamp<std::size_t>(count / kLeast, 1, hardware_threads());
+  parallel_invoke(parts, [&](std::size_t k) {
+    const std::size_t begin = count * k / parts, size = count * (k + 1) / parts - begin;
+    const HashedCells part{all.cells.subspan(begin, size), all.hashes.subspan(begin, size)};
+    if (k == 0) return add_rows(database, part, of_traces, definitions);
+    Database own(database.file(), Database::Mode::read);
+    own.execute("PRAGMA busy_timeout = 0");
+    add_rows(own, part, of_traces, definitions);
+  });
+}
+
+/// Marks the cells whose rows do not have the stored hash. `hashes`: of what precedes the rows.
+void check_rows(Database& database,
+                std::vector<StoredCell>& cells,
+                bool of_traces,
+                const std::vector<std::uint64_t>& hashes) {
+  const std::vector<std::int64_t> definitions = intact_definitions(database);
+  std::vector<bool> before;
+  for (const StoredCell& each : cells) before.push_back(each.intact);
+  const auto check = [&](const auto& add) {
+    std::vector<std::uint64_t> found = hashes;
+    add(database, {cells, found}, of_traces, definitions);
+    bool is_same = true;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::uint64_t stored = of_traces ? cells[i].trace_hash : cells[i].hash;
+      cells[i].intact = cells[i].intact && stored == found[i];
+      is_same = is_same && cells[i].intact == before[i];
+    }
+    return is_same;
+  };
+  try {
+    if (check(add_rows_in_parts)) return;
+  } catch (const InputError&) {
+    // While a writer waits for this connection to end, no other one can read.
+  }
+  // Another connection also sees what a running sweep has written since this one began to read.
+  for (std::size_t i = 0; i < cells.size(); ++i) cells[i].intact = before[i];
+  check(add_rows);
+}
+
+/// Continues a hash with the rows of a cell, those of its trace or the others.
+std::uint64_t add_rows(Database& database, std::uint64_t hash, std::int64_t id, bool of_trace) {
+  for (const CellTable& table : kCellTables) {
+    if (table.is_trace != of_trace) continue;
+    Statement row = database.prepare(std::string("SELECT * FROM ") + table.name +
+                                     " WHERE cell = ? ORDER BY 1, 2");
+    row.bind(id);
+    while (row.step()) hash = row.hashed(hash, 1);
+  }
+  return hash;
+}
+
+}  // namespace
+
+std::int64_t written_cells(Database& database) {
+  return database.integer("SELECT value FROM run WHERE key = 'cells'");
+}
+
+std::vector<StoredCell> read_stored_cells(Database& database) {
+  const std::set<std::string> damaged_provenance = damaged_rows(database, kProvenanceTable);
+  const std::set<std::string> damaged_inputs = damaged_rows(database, kInputTable);
+  std::vector<StoredCell> out;
+  std::vector<std::uint64_t> hashes;
+  Statement row = database.prepare(
+      std::string("SELECT cell.id, hash, keyframes, sequence.closures, content, group_name, ") +
+      kCellColumns + ", " + kSequenceColumns + " FROM " + kCellsWithSequences +
+      " ORDER BY cell.id");
+  StoredCell c;
+  SharedText provenance_key;
+  while (row.step()) {
+    hashes.push_back(row.hashed(0, 6));
+    std::optional<std::int64_t> position;
+    std::string status;
+    row.read(c.id, c.hash, c.keyframes, c.closure_count, c.content, c.group);
+    row.read(position, c.key, c.build, c.sequence_key, provenance_key, c.sequence);
+    row.read(c.repeat, c.method, c.dataset_options, c.method_options, c.closures);
+    row.read(c.oracle_closures, c.oracle, c.worker, c.runs);
+    row.read(c.seconds, c.seconds_min, c.seconds_max, c.cpu_seconds);
+    row.read(c.cpu_seconds_min, c.cpu_variation, c.waiting, c.peak_memory, c.added_memory);
+    row.read(status, c.signal, c.why, c.failed_scores, c.scores, c.trace_hash);
+    c.intact =
+        !damaged_provenance.contains(provenance_key) && !damaged_inputs.contains(c.sequence_key);
+    c.placed = position.has_value();
+    c.position = position.value_or(0);
+    c.status = from_text<Status>(status).value_or(Status::failed);
+    out.push_back(c);
+  }
+  check_rows(database, out, false, hashes);
+  return out;
+}
+
+std::vector<StoredCell> read_intact_cells(Database& database) {
+  std::vector<StoredCell> out = read_stored_cells(database);
+  require_none_damaged(database, out);
+  std::erase_if(out, [](const StoredCell& cell) { return !cell.placed; });
+  std::ranges::stable_sort(out, {}, &StoredCell::position);
+  return out;
+}
+
+void check_traces(Database& database, std::vector<StoredCell>& cells) {
+  check_rows(database, cells, true, std::vector<std::uint64_t>(cells.size(), 0));
+  const std::set<std::string> damaged = damaged_rows(database, kSequenceTraceTable);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    cells[i].intact = cells[i].intact && !damaged.contains(cells[i].sequence_key);
+  }
+}
+
+void require_intact(Database& database) {
+  std::vector<StoredCell> cells = read_stored_cells(database);
+  check_traces(database, cells);
+  require_none_damaged(database, cells);
+}
+
+void repair_structure(Database& database, bool all) {
+  const std::vector<std::string> tables = all ? std::vector<std::string>{""} : kSearched;
+  if (has_sound_structure(database, tables)) return;
+  database.execute("REINDEX");
+  if (has_sound_structure(database, tables)) return;
+  throw InputError(database.file() + ": is damaged; " + kRecoverAdvice);
+}
+
+void remove_cell(Database& database, std::int64_t id) {
+  for (const CellTable& table : kCellTables) {
+    database.prepare(std::string("DELETE FROM ") + table.name + " WHERE cell = ?").bind(id).run();
+  }
+  database.prepare("DELETE FROM cell WHERE id = ?").bind(id).run();
+}
+
+void remove_orphans(Database& database) {
+  const std::int64_t cells = database.integer("SELECT count(*) FROM cell");
+  if (written_cells(database) == cells) return;
+  set_run_value(database, "cells", std::to_string(cells));
+  for (const CellTable& table : kCellTables) {
+    database.execute(std::string("DELETE FROM ") + table.name +
+                     " WHERE cell NOT IN (SELECT id FROM cell)");
+  }
+}
+
+std::string label_of(const CellRow& cell) {
+  std::string out = cell.name();
+  for (char& c : out) {
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';  // in a damaged name
+  }
+  return out;
+}
+
+std::uint64_t trace_hash(Database& database, std::int64_t id) {
+  return add_rows(database, 0, id, true);
+}
+
+void set_hashes(Database& database, std::int64_t id) {
+  database.prepare("UPDATE cell SET trace_hash = ? WHERE id = ?")
+      .bind(trace_hash(database, id), id)
+      .run();
+  Statement own = database.prepare(std::string("SELECT ") + kCellColumns + ", " + kSequenceColumns +
+                                   " FROM " + kCellsWithSequences + " WHERE cell.id = ?");
+  own.bind(id).step();
+  database.prepare("UPDATE cell SET hash = ? WHERE id = ?")
+      .bind(add_rows(database, own.hashed(0, 0), id, false), id)
+      .run();
+}
+
+std::set<std::string> damaged_rows(Database& database, const SharedTable& table) {
+  std::set<std::string> out;
+  Statement row = database.prepare(std::string("SELECT row_hash, * FROM ") + table.name);
+  while (row.step()) {
+    std::uint64_t hash = 0;
+    row.read(hash);
+    if (row.hashed(0, 1, 1) != hash) out.insert(row.text());
+  }
+  return out;
+}
+
+std::set<std::string> remove_damaged_rows(Database& database, const SharedTable& table) {
+  const std::set<std::string> out = damaged_rows(database, table);
+  Statement remove =
+      database.prepare(std::string("DELETE FROM ") + table.name + " WHERE " + table.key + " = ?");
+  for (const std::string& key : out) remove.bind(key).run();
+  return out;
+}
+
+void require_intact_descriptions(Database& database) {
+  for (const SharedTable& table : {kRunTable, kProvenanceTable, kInputTable}) {
+    const std::set<std::string> damaged = damaged_rows(database, table);
+    if (damaged.empty()) continue;
+    throw_damaged(database.file(),
+                  "row " + *damaged.begin() + " of its table " + table.name + " is");
+  }
+}
+
+std::vector<std::int64_t> intact_definitions(Database& database) {
+  std::vector<std::int64_t> out;
+  Statement row = database.prepare("SELECT * FROM score_definition ORDER BY id");
+  while (row.step()) {
+    const std::int64_t id = row.integer();
+    if (id == definition_id(row.hashed(0, 1))) out.push_back(id);
+  }
+  return out;
+}
+
+void set_run_value(Database& database, const std::string& key, const std::string& value) {
+  database.prepare("INSERT OR REPLACE INTO run VALUES (?, ?, ?)").bind_hashed(key, value).run();
+}
+
+void throw_damaged(const std::string& file, const std::string& what) {
+  throw InputError(file + ": is damaged: " + what +
+                   " corrupted; 'loopbench run' with its config recomputes it");
+}
+
+}  // namespace loopbench::harness
