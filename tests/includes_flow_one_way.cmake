@@ -54,6 +54,7 @@ set(order
   "harness/sweep/catalogue"
   "harness/sweep/config harness/sweep/run"
   "harness/sweep/store"
+  "harness/answers/notes"
   "harness/answers/compare"
   "harness/answers/gate"
   "harness/answers/tables"

@@ -5,6 +5,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/answers/gate/gate.hpp"
+#include "harness/answers/notes/counted_notes.hpp"
 #include "harness/answers/tables/gate_table.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
@@ -121,6 +122,7 @@ int check_store(const CheckArguments& arguments) {
   } catch (const InputError& error) {
     throw InputError(arguments.baseline + ": " + error.what());
   }
+  report.above = texts(counted_notes(arguments.store), Severity::decisive);
   const std::string text = markdown(report, baseline.snapshot.sweep);
   for (const std::string& out : {arguments.markdown, arguments.junit}) {
     reject_overwriting({store_file(arguments.store), arguments.baseline}, out);

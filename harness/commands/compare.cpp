@@ -55,10 +55,11 @@ std::string metric_of(const CompareArguments& arguments) {
 
 std::string comparisons_text(const std::vector<Comparison>& comparisons,
                              const OutputOptions& output,
-                             const std::string& store) {
+                             const std::string& store,
+                             const std::vector<std::string>& rules) {
   if (output.format() == ExportFormat::csv) return csv(comparisons);
   if (output.format() == ExportFormat::json) return json(comparisons);
-  return text(answer(comparisons), output, store);
+  return text(answer(comparisons), output, store, rules);
 }
 
 /// Assertions are about one score.
@@ -92,7 +93,7 @@ int print_comparison(const CompareArguments& arguments) {
       not_shown(arguments.assertions, comparisons.front(), [&](const std::string& baseline) {
         return compared(baseline).front();
       });
-  write_output(comparisons_text(comparisons, arguments.output, store),
+  write_output(comparisons_text(comparisons, arguments.output, store, arguments.where),
                arguments.output,
                "comparisons",
                store);

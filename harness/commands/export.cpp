@@ -156,8 +156,8 @@ void add_export(CLI::App& app, int& exit_code) {
       a->what,
       "rows: every score, as CSV; trajectories: TUM files of the estimates and references, with "
       "index.csv, see `run --save-trajectories`; benchmark: costs and their growth as JSON of "
-      "Google Benchmark")
-      ->check(CLI::IsMember({"rows", "trajectories", "benchmark"}))
+      "Google Benchmark; notes: what is known about the runs besides their scores, as JSON")
+      ->check(CLI::IsMember({"rows", "trajectories", "benchmark", "notes"}))
       ->capture_default_str();
   command->add_option("-o,--out", a->out, "File (default: standard output), or folder");
   command->callback([a, &exit_code] {
@@ -170,6 +170,11 @@ void add_export(CLI::App& app, int& exit_code) {
       if (!a->out.empty()) reject_overwriting({store_file(a->store)}, a->out);
       write_file(a->out.empty() ? "-" : a->out,
                  benchmark_json(read_cells(a->store), read_provenance(a->store)));
+      return;
+    }
+    if (a->what == "notes") {
+      if (!a->out.empty()) reject_overwriting({store_file(a->store)}, a->out);
+      write_file(a->out.empty() ? "-" : a->out, json(counted_notes(a->store)) + "\n");
       return;
     }
     export_rows(a->store, a->out);

@@ -17,6 +17,7 @@
 #include "harness/commands/options.hpp"
 #include "harness/sweep/model/where.hpp"
 #include "harness/sweep/process/write_file.hpp"
+#include "harness/sweep/store/read.hpp"
 #include "harness/sweep/text/printable.hpp"
 #include "harness/sweep/text/suggest.hpp"
 
@@ -37,11 +38,18 @@ struct PlotArguments {
 /// "se3 alignment" of the first protocol of a sweep, whose trajectories are stored; empty if the
 /// store does not state it.
 std::string alignment_of(const ReportContent& content) {
-  const std::string rules = content.run_value("protocol");
-  const std::size_t begin = rules.find("align=", rules.find("]: "));  // after name and changes
-  if (begin == std::string::npos) return "";
-  const std::string how = rules.substr(begin + 6, rules.find(',', begin) - begin - 6);
+  const auto all = alignments(content.run);
+  if (all.empty()) return "";
+  const std::string& how = all.front().second;
   return ", " + (how == "none" ? "no" : how) + " alignment";
+}
+
+/// Whether the store has what a panel of scores shows.
+bool has_data(const ReportContent& content, const std::string& panel) {
+  if (panel == "ratio") return content.headline() != nullptr;
+  if (panel == "growth") return !growths(content.cells).empty();
+  if (panel == "time") return std::ranges::any_of(content.cells, &CellRow::runs);
+  return !content.records.empty();
 }
 
 /// Figures of all sequences, one for each panel that the store has data for.
@@ -50,11 +58,7 @@ FigureData score_figures(const ReportContent& content,
                          const std::map<std::string, std::string>& names) {
   FigureData out;
   for (const std::string& panel : arguments.panels) {
-    const bool has_data = panel == "ratio"    ? content.headline() != nullptr
-                          : panel == "growth" ? !growths(content.cells).empty()
-                          : panel == "time"   ? std::ranges::any_of(content.cells, &CellRow::runs)
-                                              : !content.records.empty();
-    if (std::ranges::count(kScorePanels, panel) == 0 || !has_data) continue;
+    if (std::ranges::count(kScorePanels, panel) == 0 || !has_data(content, panel)) continue;
     out.figures.push_back({{}, {panel}, arguments.figures});
     for (const std::string& format : arguments.formats) {
       out.figures.back().files.push_back(arguments.folder + "/" + panel + "." + format);

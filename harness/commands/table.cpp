@@ -50,7 +50,7 @@ std::string tables_text(const TableArguments& arguments) {
   }
   if (format == ExportFormat::csv) return csv(tables);
   if (format == ExportFormat::json) return json(tables);
-  return text(tables, arguments.output, arguments.store);
+  return text(tables, arguments.output, arguments.store, arguments.where);
 }
 
 /// The first record of a score with a direction; empty if there is none.

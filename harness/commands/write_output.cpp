@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 
+#include "harness/answers/notes/counted_notes.hpp"
 #include "harness/answers/tables/store_provenance.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/sweep/process/write_file.hpp"
 #include "harness/sweep/run/build.hpp"
 #include "harness/sweep/store/open.hpp"
+#include "harness/sweep/store/read.hpp"
 #include "harness/sweep/text/print_error.hpp"
 
 namespace loopbench::harness {
@@ -20,13 +21,11 @@ namespace {
 
 bool is_printed(const OutputOptions& output) { return output.file.empty() || is_dash(output.file); }
 
-/// "protocol loopbench [3], alignment se3", from "loopbench [3]: align=se3, ..." of each protocol.
-std::string alignments(const std::string& protocols) {
-  static const std::regex kAlign("([^\n]+): align=([^,\n]+)");
+/// "protocol loopbench [3], alignment se3".
+std::string alignments_text(const std::map<std::string, std::string>& run) {
   std::string out;
-  for (std::sregex_iterator each(protocols.begin(), protocols.end(), kAlign), end; each != end;
-       ++each) {
-    out += (out.empty() ? "protocol " : "; ") + each->str(1) + ", alignment " + each->str(2);
+  for (const auto& [protocol, align] : alignments(run)) {
+    out += (out.empty() ? "protocol " : "; ") + protocol + ", alignment " + align;
   }
   return out;
 }
@@ -63,12 +62,16 @@ void declare(CLI::App& command, OutputOptions& output) {
 
 std::string text(std::vector<Table> tables,
                  const OutputOptions& output,
-                 const std::filesystem::path& store) {
+                 const std::filesystem::path& store,
+                 const std::vector<std::string>& rules) {
+  if (!tables.empty()) {
+    tables.front().above = texts(counted_notes(store, rules), Severity::decisive);
+  }
   TerminalStyle style = is_printed(output) ? standard_output_style() : TerminalStyle{};
   if (style.width == 0) style.width = 100;
   const ExportFormat format = output.format();
   const std::string alignment =
-      format == ExportFormat::latex ? alignments(read_store_provenance(store).run["protocol"]) : "";
+      format == ExportFormat::latex ? alignments_text(read_run(store)) : "";
   std::string out;
   for (Table& table : tables) {
     out += out.empty() || out.ends_with("\n\n") ? "" : "\n";

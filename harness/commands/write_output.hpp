@@ -28,10 +28,12 @@ struct OutputOptions {
 void declare(CLI::App& command, OutputOptions& output);
 
 /// The tables of a store one below the other: Markdown, LaTeX with the alignment in the captions,
-/// or for the terminal in its width.
+/// or for the terminal in its width. Above them, the notes that can change a conclusion, of the
+/// runs that pass the filters `rules`.
 std::string text(std::vector<Table> tables,
                  const OutputOptions& output,
-                 const std::filesystem::path& store);
+                 const std::filesystem::path& store,
+                 const std::vector<std::string>& rules = {});
 
 /// Writes or prints `text`. A comment in Markdown and LaTeX names the source in one line, or has
 /// the provenance of the store if requested; JSON is {provenance, KEY: text}. CSV has no comments:

@@ -41,10 +41,11 @@ inline constexpr double kLeastConfidence = 0.25;
 
 struct InputFinding {
   Fault::Name fault;
-  std::string evidence;     ///< numbers that show the mistake
-  std::string fix;          ///< what to do, as an option where there is one
-  double confidence = 0.0;  ///< 0..1: where measured, 1 - error after / error before the fix
-  double value = 0.0;       ///< offset [s], ratio, or number of edges; see `evidence`
+  std::string evidence;            ///< numbers that show the mistake
+  std::string fix;                 ///< what to do, as an option where there is one
+  double confidence = 0.0;         ///< 0..1: where measured, 1 - error after / error before the fix
+  double value = 0.0;              ///< offset [s], ratio, or number of edges; see `evidence`
+  bool has_frame_numbers = false;  ///< the estimate's stamps are frame numbers
 };
 
 /// "time_offset: EVIDENCE; FIX (confidence 0.93)".

@@ -96,7 +96,8 @@ std::optional<InputFinding> check_overlap(const Trajectory& reference,
                       has_indices ? "write the estimate's stamps in seconds"
                                   : "give files of the same recording, or the offset (--offset)",
                       1.0,
-                      distance};
+                      distance,
+                      has_indices};
 }
 
 std::optional<InputFinding> check_missing(const Trajectory& reference,

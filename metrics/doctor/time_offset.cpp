@@ -255,7 +255,8 @@ std::optional<InputFinding> check_rate(const Trajectory& reference, const Trajec
                   best.score),
       "write the stamp of each frame in seconds",
       kSameCorrelation,
-      factor};
+      factor,
+      has_indices};
 }
 
 }  // namespace loopbench::metrics

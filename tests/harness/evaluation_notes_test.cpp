@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/sweep/model/note_text.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::evaluation_notes_test {
@@ -42,7 +43,7 @@ TEST(EvaluationNotes, OfASequenceNameTheTimeThatIsBridged) {
   for (const double stamp : every_tenth(600, 1000)) stamps.push_back(stamp);
   Sweep sweep;
   sweep.protocols = {named_protocol("loopbench")};
-  const auto notes = evaluation_notes(estimated_at(stamps), sweep);
+  const auto notes = texts(evaluation_notes(estimated_at(stamps), sweep));
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes[0],
             "tracking gaps: 30.1 s between keyframes are bridged without a measurement, and not "
@@ -52,7 +53,7 @@ TEST(EvaluationNotes, OfASequenceNameTheTimeThatIsBridged) {
 TEST(EvaluationNotes, OfASequenceNameLittleCoverageAndFewPairs) {
   Sweep sweep;
   sweep.protocols = {named_protocol("loopbench"), named_protocol("tum")};
-  const auto notes = evaluation_notes(estimated_at(every_tenth(500, 505)), sweep);
+  const auto notes = texts(evaluation_notes(estimated_at(every_tenth(500, 505)), sweep));
   ASSERT_EQ(notes.size(), 2u);
   EXPECT_EQ(notes[0], "low coverage: 5 of 5 poses over 0.4 % of the reference's time");
   EXPECT_THAT(notes[1], HasSubstr("few pairs: 5 pairs have 15 coordinates"));

@@ -64,7 +64,7 @@ TEST(Gate, ReportsSmallDifferencesOfAnUnsteadyMethodAsNotDeterministic) {
     return after([&](Snapshot& now) {
       for (std::size_t cell = 1; cell < 16; cell += 2) {
         rmse(now, cell) *= cell % 4 == 1 ? factor : 1.0;
-        now.records[cell].cell.edit().notes = {"nondeterministic: 2 runs gave 2 trajectories"};
+        now.records[cell].cell.edit().notes = {{.kind = NoteKind::nondeterministic}};
       }
     });
   };

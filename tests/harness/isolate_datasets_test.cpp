@@ -135,7 +135,7 @@ TEST_F(IsolatedDatasets, LongTextsOfDatasetsAreCut) {
   ASSERT_EQ(results.size(), 1u);
   ASSERT_TRUE(results[0].metadata);
   ASSERT_EQ(results[0].metadata->notes.size(), kMostItems + 1);
-  EXPECT_TRUE(results[0].metadata->notes[0].ends_with("nn ... (98000 more bytes)"));
+  EXPECT_TRUE(results[0].metadata->notes[0].detail.ends_with("nn ... (98000 more bytes)"));
 }
 
 TEST_F(IsolatedDatasets, MessagesOfDatasetsAreCutAndNotEmpty) {

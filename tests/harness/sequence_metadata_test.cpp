@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "datasets/core/se3.hpp"
+#include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/run/summarise_sequence.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -42,10 +43,10 @@ TEST(SequenceMetadata, TellOfAReferenceThatFollowsAnotherBody) {
       "body frame (+- "
       "0.0,0.0,0.0 "
       "m): over rotations, the lever arm explains 100 % of the squared differences";
-  const auto notes = [&] { return sequence_metadata(sequence, false).notes; };
-  EXPECT_EQ(notes(), std::vector{found});
+  const auto notes = [&] { return texts(sequence_metadata(sequence, false).notes); };
+  EXPECT_EQ(notes(), std::vector<std::string>{found});
   sequence.provenance.body_from_reference = Pose{};  // the dataset supports the option
-  EXPECT_EQ(notes(), std::vector{found + "; see reference_body of the dataset"});
+  EXPECT_EQ(notes(), std::vector<std::string>{found + "; see reference_body of the dataset"});
   sequence.reference = sequence.problem.keyframes;
   EXPECT_EQ(notes(), std::vector<std::string>{"oracle: the estimate equals the reference"});
 }
@@ -57,7 +58,7 @@ TEST(SequenceMetadata, NotesAnEstimateThatIsTheReference) {
     sequence.problem.keyframes.push_back({0.1 * i, {Rotation::Identity(), 1.001 * position}});
     sequence.reference.push_back({0.1 * i, {Rotation::Identity(), position}});
   }
-  const auto notes = [&] { return sequence_metadata(sequence, false).notes; };
+  const auto notes = [&] { return texts(sequence_metadata(sequence, false).notes); };
   sequence.problem.frames = {sequence.reference.begin() + 2, sequence.reference.end()};
   EXPECT_EQ(notes(), std::vector<std::string>{"oracle: the frames equal the reference"});
   sequence.problem.frames.clear();

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "harness/answers/tables/notes.hpp"
 #include "harness/answers/tables/pivot.hpp"
+#include "harness/answers/tables/reasons.hpp"
 #include "harness/answers/tables/record_csv.hpp"
 #include "harness/answers/tables/summary.hpp"
 #include "harness/sweep/model/where.hpp"

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/store/read.hpp"
 #include "harness/sweep/store/traces.hpp"
 
@@ -29,7 +30,7 @@ inline std::string store_text(const std::filesystem::path& file) {
            c.dataset_options + "|" + c.closures + "|" + std::to_string(c.keyframes) + "|" +
            c.worker + "|" + to_text(c.status) + "|" + c.signal + "|" + c.why + "\n";
     for (const Count& count : c.counts) out += count.name + "=" + exact(count.value) + "\n";
-    for (const std::string& note : c.notes) out += "note " + note + "\n";
+    for (const std::string& note : harness::texts(c.notes)) out += "note " + note + "\n";
     for (const Section& s : traces.sections(c.position)) {
       out += s.kind + " " + exact(s.begin) + " " + exact(s.end) + " " + s.what + "\n";
     }

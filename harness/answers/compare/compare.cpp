@@ -160,6 +160,7 @@ void add_baseline(MethodVerdict& method,
 MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size_t method_index) {
   MethodVerdict out;
   out.method = all.methods[kept.methods[method_index]];
+  if (const auto own = all.parts.find(out.method); own != all.parts.end()) out.parts = own->second;
   std::vector<double> values;
   double covered = 0.0;
   for (const std::size_t run : kept.runs) {

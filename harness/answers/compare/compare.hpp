@@ -52,6 +52,7 @@ struct Ratio {
 
 struct MethodVerdict {
   std::string method;
+  MethodParts parts = {};
   double median = 0.0;         ///< of its values
   std::size_t runs = 0;        ///< runs with a value
   std::size_t fails = 0;       ///< runs that count as a loss

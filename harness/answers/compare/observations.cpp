@@ -48,6 +48,7 @@ void ObservationsBuilder::add(const Record& r) {
   const CellRow& cell = *r.cell;
   const std::string run_name = cell.run_name();
   const Unscored one{methods_.index(cell.method), run_names_.index(run_name), observed(r, value_)};
+  if (one.method == parts_.size()) parts_.push_back(cell.parts);
   if (one.run == runs_.size()) {
     runs_.push_back(
         {run_name, cell.sequence, group_name(cell), cell.content, cell.oracle_closures});
@@ -86,6 +87,7 @@ std::vector<Observations> ObservationsBuilder::build() {
     std::vector<std::vector<Observed>> all = std::exchange(table.values, {});
     for (std::size_t m = 0; m < names.size(); ++m) {
       (oracles.contains(m) ? table.oracles : table.methods).push_back(names[m]);
+      table.parts.emplace(names[m], parts_[m]);
       if (oracles.contains(m)) continue;
       all[m].resize(runs_.size());
       table.values.push_back(std::move(all[m]));

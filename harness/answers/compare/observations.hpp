@@ -44,6 +44,7 @@ struct Observations {
   ScoreKind kind;  ///< of all values, with unit and direction of the statistic; no direction if it
                    ///< or the target differs between values
   std::vector<std::string> methods;
+  std::map<std::string, MethodParts> parts;  ///< of each method
   std::vector<ObservedRun> runs;
   std::vector<std::vector<Observed>> values;  ///< [method][run]
   std::vector<std::string> oracles;  ///< excluded: use the reference on a run where others do not
@@ -75,6 +76,7 @@ class ObservationsBuilder {
   std::string value_;
   std::map<ScoreKind, std::size_t> kinds_;
   NameOrder methods_;
+  std::vector<MethodParts> parts_;
   NameOrder run_names_;
   std::vector<ObservedRun> runs_;
   std::vector<Observations> tables_;

@@ -130,21 +130,36 @@ std::string too_few_text(const Comparison& c) {
   return out + ". " + cannot_show_text(c);
 }
 
+std::vector<const MethodVerdict*> verdicts_of(const Comparison& c, const Names& methods) {
+  std::vector<const MethodVerdict*> out;
+  for (const std::string& name : methods) out.push_back(c.find(name));
+  return out;
+}
+
+/// The corrector of which these are all methods with a smoother, three or more; otherwise empty.
+std::string common_corrector(const Comparison& c, const Names& methods) {
+  const SharedText corrector = c.find(methods.front())->parts.corrector;
+  const auto has_smoother = [&](const MethodVerdict& m) {
+    return m.parts.corrector == corrector && !m.parts.smoother.empty();
+  };
+  const bool are_all = !corrector.empty() && methods.size() > 2 &&
+                       methods.size() == names_where(c, has_smoother).size() &&
+                       std::ranges::all_of(methods, [&](const std::string& name) {
+                         return has_smoother(*c.find(name));
+                       });
+  return are_all ? corrector.text() : "";
+}
+
 /// "dual with a smoother" for all methods of that kind, "a, b and 3 more" otherwise.
 std::string common_name(const Comparison& c, const Names& methods) {
-  const std::string corrector = methods.front().substr(0, methods.front().find(" + ")) + " + ";
-  const auto is_of_corrector = [&](const std::string& m) { return m.starts_with(corrector); };
-  const auto of_corrector =
-      names_where(c, [&](const MethodVerdict& m) { return is_of_corrector(m.method); });
-  const bool are_all = methods.size() > 2 && methods.size() == of_corrector.size() &&
-                       std::ranges::all_of(methods, is_of_corrector);
-  return are_all ? corrector.substr(0, corrector.size() - 3) + " with a smoother"
-                 : short_names(methods, " and ");
+  const std::string corrector = common_corrector(c, methods);
+  return corrector.empty() ? short_names(verdicts_of(c, methods), " and ")
+                           : corrector + " with a smoother";
 }
 
 std::string best_text(const Comparison& c, const Names& first, bool has_baseline) {
   const std::string name = common_name(c, first);
-  const bool is_one = first.size() == 1 || name.ends_with(" with a smoother");
+  const bool is_one = first.size() == 1 || !common_corrector(c, first).empty();
   const char* const place = is_one ? " is best" : c.is_best ? " are best" : " share first place";
   if (!has_baseline) {
     Names divided;
@@ -153,7 +168,8 @@ std::string best_text(const Comparison& c, const Names& first, bool has_baseline
     }
     const std::string changes = name + place + ", " + names_text(c, first);
     if (divided.empty()) return changes;
-    return changes + "; " + short_names(divided, " and ") + " depends on the sequence";
+    return changes + "; " + short_names(verdicts_of(c, divided), " and ") +
+           " depends on the sequence";
   }
   if (first.size() > 1) return name + place;
   const MethodVerdict& next = first_other(c);

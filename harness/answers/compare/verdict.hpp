@@ -68,8 +68,10 @@ std::string sentence(const Comparison& comparison);
 /// "ate rotation rmse, dense, loopbench".
 std::string title(const Comparison& comparison);
 
-/// "dual + dm_n3, dm_n4, 8 more": without the corrector that is also the first one's.
-std::string short_names(std::vector<std::string> methods, const std::string& last_separator);
+/// "dual + dm_n3, dm_n4, 8 more": of methods without a label of their own, without the corrector
+/// that is also the first one's.
+std::string short_names(const std::vector<const MethodVerdict*>& methods,
+                        const std::string& last_separator);
 
 /// "44", "5.1", "-0.0012": at least two digits.
 std::string percent_text(double percent);

@@ -111,6 +111,14 @@ void add_cautions(std::vector<Caution>& out, const Comparison& c, const std::str
   }
 }
 
+/// Whether the method is a corrector with a smoother, and its name is what a config without a label
+/// gives it.
+bool is_named_by_stages(const MethodVerdict& m) {
+  const auto& [replay, corrector, smoother, program] = m.parts;
+  return replay.empty() && !corrector.empty() && !smoother.empty() &&
+         m.method == corrector + " + " + smoother;
+}
+
 }  // namespace
 
 VerdictGroup group_of(const std::vector<const MethodVerdict*>& members,
@@ -140,15 +148,19 @@ VerdictGroup group_of(const std::vector<const MethodVerdict*>& members,
     }
   }
   if (!has_interval) out.interval.reset();
-  out.name = short_names(out.methods, ", ");
+  out.name = short_names(members, ", ");
   return out;
 }
 
-std::string short_names(Names names, const std::string& last_separator) {
+std::string short_names(const std::vector<const MethodVerdict*>& methods,
+                        const std::string& last_separator) {
   constexpr std::size_t kMost = 3;
-  const std::size_t plus = names.front().find(" + ");
-  for (std::size_t i = 1; i < names.size() && plus != std::string::npos; ++i) {
-    if (names[i].starts_with(names.front().substr(0, plus + 3))) names[i].erase(0, plus + 3);
+  const SharedText& corrector = methods.front()->parts.corrector;
+  Names names;
+  for (const MethodVerdict* m : methods) {
+    const bool is_same = m != methods.front() && is_named_by_stages(*m) &&
+                         is_named_by_stages(*methods.front()) && m->parts.corrector == corrector;
+    names.push_back(is_same ? m->parts.smoother.text() : m->method);
   }
   if (names.size() > kMost) {
     names[kMost - 1] = fmt::format("{} more", names.size() - (kMost - 1));

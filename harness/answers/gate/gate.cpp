@@ -64,7 +64,7 @@ constexpr double kMostUnsteady = 0.05;
 
 bool is_unsteady(const CellRow& cell) {
   return std::ranges::any_of(
-      cell.notes, [](const std::string& note) { return note.starts_with(kNondeterministic); });
+      cell.notes, [](const Note& note) { return note.kind == NoteKind::nondeterministic; });
 }
 
 class Checker {

@@ -45,6 +45,7 @@ struct GateReport {
   std::vector<Finding> findings;              ///< in the order of the baseline
   std::map<std::string, std::string> failed;  ///< cells that failed now, with the stored reason
   std::vector<std::string> notes;  ///< checks that were not possible, and what is not checked
+  std::vector<std::string> above;  ///< notes of the runs that can change a conclusion
 
   std::size_t count(Finding::Kind kind) const;
   bool passes() const { return count(Finding::Kind::regression) == 0; }

@@ -61,6 +61,7 @@ ReportContent read_report_content(const std::filesystem::path& store, std::size_
   const std::string baseline = out.run["baseline"];
   read_scores(baseline, bytes, out);
   out.cells = read_cells(store);
+  out.notes = counted_notes(store);
   if (out.cells.empty()) throw InputError(store.string() + ": has no cells to report");
   NameOrder sequences, methods;
   for (const CellRow& cell : out.cells) {
@@ -93,8 +94,8 @@ std::vector<std::string> default_methods(const ReportContent& content) {
   }
   add(headline->options.baseline);
   std::set<std::string> chains;
-  for (const auto& [name, options] : method_definitions(content)) {
-    if (options.find("; + ") != std::string::npos) chains.insert(name);
+  for (const CellRow& cell : content.cells) {
+    if (!cell.parts.corrector.empty() && !cell.parts.smoother.empty()) chains.insert(cell.method);
   }
   for (const MethodVerdict& m : headline->methods) {
     const bool is_chain = chains.contains(m.method);

@@ -153,9 +153,7 @@ Table costs(const std::vector<CellRow>& cells) {
         cells.size(),
         100.0 * kBusy));
   }
-  const auto alone = std::ranges::count_if(cells, [](const auto& cell) {
-    return cell.worker.text().find("serial") != std::string::npos;
-  });
+  const auto alone = std::ranges::count(cells, true, &CellRow::serial);
   if (alone < std::ssize(cells)) {
     out.notes.push_back(
         std::string(alone > 0 ? "some" : "all") +

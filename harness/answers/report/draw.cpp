@@ -188,9 +188,8 @@ std::vector<std::string> figure_panels(const std::vector<std::string>& names, bo
     if (std::ranges::count(kScorePanels, name) > 0) continue;
     const bool is_error = name.size() == 1 || name == "angle";
     if (is_error != of_errors) continue;
-    out.push_back(!is_error         ? name
-                  : name == "angle" ? "angle by distance"
-                                    : "error_" + name + " by distance");
+    const std::string error = name == "angle" ? name : "error_" + name;
+    out.push_back(is_error ? error + " by distance" : name);
   }
   return out;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/answers/compare/compare.hpp"
+#include "harness/answers/notes/counted_notes.hpp"
 #include "harness/sweep/model/sequence_metadata.hpp"
 
 namespace loopbench::harness {
@@ -20,6 +21,7 @@ struct ReportContent {
   std::map<std::string, std::string> provenance;
   std::map<std::string, std::vector<InputFile>> inputs;
   std::vector<CellRow> cells;
+  std::vector<CountedNote> notes;       ///< the most severe first
   std::vector<Comparison> comparisons;  ///< one for each score; empty without a baseline
   std::vector<Record> undefined;        ///< scores without a value, or of incomplete estimates
   std::vector<std::string> sequences;   ///< labels in the order of the sweep

@@ -42,35 +42,8 @@ std::string only_score(const ReportContent& content) {
       html_text(first->kind->protocol));
 }
 
-}  // namespace
-
-std::string summary_html(const ReportContent& content) {
-  std::map<Status, std::size_t> statuses;
-  std::set<std::int64_t> repeats;
-  for (const CellRow& cell : content.cells) {
-    ++statuses[cell.status];
-    repeats.insert(cell.repeat);
-  }
-  std::string out =
-      "<div class=\"counters\">" +
-      counter(content.methods.size(), plural(content.methods.size(), "method")) +
-      counter(content.sequences.size(), plural(content.sequences.size(), "sequence")) +
-      counter(repeats.size(), plural(repeats.size(), "repeat"));
-  for (const auto& [status, number] : statuses) {
-    const bool is_bad = is_failure(status);
-    out += counter(number, plural(number, "cell") + " " + to_text(status), is_bad ? "bad" : "");
-  }
-  out += "</div>\n";
-  if (content.shown == content.sequences.size()) return out;
-  return out + fmt::format(
-                   "<p class=\"warning\">Tables by sequence and figures show the first {} of {} "
-                   "sequences, because the size of the report is limited (--size). Verdicts, costs "
-                   "and failures cover all.</p>\n",
-                   content.shown,
-                   content.sequences.size());
-}
-
-std::string answers_html(const ReportContent& content) {
+/// The verdict of each score.
+std::string verdicts_html(const ReportContent& content) {
   const Comparison* headline = content.headline();
   if (headline == nullptr && content.methods.size() == 1) return only_score(content);
   std::string out = fmt::format(
@@ -102,6 +75,48 @@ std::string answers_html(const ReportContent& content) {
          html_text(are_all ? "all sequences" : fmt::format("{}", fmt::join(measured, ", "))) +
          ": loop closures were measured in the reference or selected by it (oracle), which is "
          "better than any detector.</p>\n";
+}
+
+}  // namespace
+
+std::string summary_html(const ReportContent& content) {
+  std::map<Status, std::size_t> statuses;
+  std::set<std::int64_t> repeats;
+  for (const CellRow& cell : content.cells) {
+    ++statuses[cell.status];
+    repeats.insert(cell.repeat);
+  }
+  std::string out =
+      "<div class=\"counters\">" +
+      counter(content.methods.size(), plural(content.methods.size(), "method")) +
+      counter(content.sequences.size(), plural(content.sequences.size(), "sequence")) +
+      counter(repeats.size(), plural(repeats.size(), "repeat"));
+  for (const auto& [status, number] : statuses) {
+    const bool is_bad = is_failure(status);
+    out += counter(number, plural(number, "cell") + " " + to_text(status), is_bad ? "bad" : "");
+  }
+  out += "</div>\n";
+  if (content.shown == content.sequences.size()) return out;
+  return out + fmt::format(
+                   "<p class=\"warning\">Tables by sequence and figures show the first {} of {} "
+                   "sequences, because the size of the report is limited (--size). Verdicts, costs "
+                   "and failures cover all.</p>\n",
+                   content.shown,
+                   content.sequences.size());
+}
+
+std::string notes_html(const ReportContent& content, Severity least) {
+  const std::vector<std::string> lines = texts(content.notes, least);
+  if (lines.empty()) return "";
+  std::string out = "<ul class=\"notes\">";
+  for (const std::string& line : lines) out += "<li>" + html_text(line) + "</li>";
+  return out + "</ul>\n";
+}
+
+std::string answers_html(const ReportContent& content) {
+  const std::string decisive = notes_html(content, Severity::decisive);
+  return (decisive.empty() ? "" : "<div class=\"warning\">" + decisive + "</div>\n") +
+         verdicts_html(content);
 }
 
 std::string scores_html(const ReportContent& content) {
@@ -146,6 +161,8 @@ std::string provenance_html(const ReportContent& content) {
     }
     out += html_text_table(files);
   }
+  const std::string notes = notes_html(content, Severity::info);
+  if (!notes.empty()) out += "<h3>Notes</h3>\n" + notes;
   return out + "<h3>Config</h3>\n<pre tabindex=\"0\">" + html_text(content.run_value("config")) +
          "</pre>\n";
 }

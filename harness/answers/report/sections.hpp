@@ -24,6 +24,9 @@ std::string html_text_table(const Table& table);
 /// Number of cells by status.
 std::string summary_html(const ReportContent& content);
 
+/// Notes of at least this severity, as a list; empty if there are none.
+std::string notes_html(const ReportContent& content, Severity least);
+
 /// The verdict of each score: sentence, groups, cautions, limits; all but the headline are hidden.
 std::string answers_html(const ReportContent& content);
 

@@ -73,6 +73,7 @@ inline std::string markdown(const GateReport& report, const std::string& sweep) 
                          counted(report.cells, "cell"),
                          counted(report.scores, "score"))}};
   for (const std::string& note : report.notes) out.notes.push_back(note);
+  out.above = report.above;
   for (const Finding& finding : report.findings) {
     out.lines.push_back({{finding.cell}, {finding.score}, {name(finding.kind)}, {finding.what}});
   }
@@ -87,6 +88,8 @@ inline std::string junit(const GateReport& report, const std::string& sweep) {
   for (const Finding& finding : report.findings) {
     if (finding.kind == Finding::Kind::regression) regressions[finding.cell].push_back(&finding);
   }
+  std::string notes;
+  for (const std::string& line : report.above) notes += "note: " + line + "\n";
   std::size_t failures = 0;
   std::string cases;
   for (const std::string& cell : report.names) {
@@ -97,11 +100,12 @@ inline std::string junit(const GateReport& report, const std::string& sweep) {
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n{}</testsuite>\n",
+      "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n{}{}</testsuite>\n",
       xml("loopbench check " + sweep),
       report.names.size(),
       failures,
-      cases);
+      cases,
+      notes.empty() ? "" : "<system-out>" + xml(notes) + "</system-out>\n");
 }
 
 }  // namespace loopbench::harness

@@ -138,7 +138,8 @@ std::string tabular(const Table& table,
   for (const auto& line : table.lines) {
     for (const std::size_t c : shown) {
       const std::string text = c == 0 ? breakable(line[c].text) : escaped_latex(line[c].text);
-      out += c > 0 ? " & " : has_long_names ? "\\raggedright\\hangindent=1em " : "";
+      if (c > 0) out += " & ";
+      if (c == 0 && has_long_names) out += "\\raggedright\\hangindent=1em ";
       out += line[c].is_best ? "\\textbf{" + text + "}" : text;
     }
     out += " \\\\\n";
@@ -152,14 +153,21 @@ std::string latex(const Table& all, bool wide) {
   const Table table = with_common_unit(without_empty_columns(all));
   std::string notes;
   for (const std::string& note : table.notes) notes += breakable(one_line(note)) + "\\par\n";
-  if (table.headings.empty()) return "\\noindent " + breakable(table.title) + "\\par\n" + notes;
+  std::string comments, cautions;
+  for (const std::string& line : table.above) {
+    comments += "% note: " + one_line(line) + "\n";
+    cautions += (cautions.empty() ? " Note: " : "; ") + breakable(one_line(line));
+  }
+  if (table.headings.empty())
+    return comments + "\\noindent " + breakable(table.title) + cautions + "\\par\n" + notes;
   const double limit = wide ? 495.0 : 239.0;  // [pt]
   const std::vector<PaperColumn> columns = columns_of(table, limit);
   const std::vector<Columns> parts = parts_of(columns, limit);
   const std::string environment = wide ? "{table*}" : "{table}";
   const char* const separator = table.title.empty() || table.facts.empty() ? "" : "; ";
-  const std::string caption = breakable(table.title + separator + table.facts);
-  std::string out;
+  const std::string caption =
+      breakable(table.title + separator + table.facts) + (cautions.empty() ? "" : "." + cautions);
+  std::string out = comments;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::string part =
         parts.size() == 1 ? "" : fmt::format(" (part {} of {})", p + 1, parts.size());

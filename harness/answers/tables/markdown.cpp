@@ -76,7 +76,10 @@ std::string grid_text(const Table& table) {
 
 std::string markdown(const Table& all) {
   const Table table = with_common_unit(without_empty_columns(all));
-  std::string out = table.title.empty() ? "" : "### " + escaped_markdown(table.title) + "\n\n";
+  std::string out;
+  for (const std::string& line : table.above) out += "> " + escaped_markdown(line) + "\n>\n";
+  if (!out.empty()) out.replace(out.size() - 2, 2, "\n");  // a quotation ends before the title
+  if (!table.title.empty()) out += "### " + escaped_markdown(table.title) + "\n\n";
   if (!table.headings.empty()) out += grid_text(table);
   if (!table.headings.empty() && !table.notes.empty()) out += "\n";
   for (const std::string& note : table.notes) {

@@ -6,22 +6,34 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <type_traits>
 
+#include "harness/sweep/model/cell_columns.hpp"
 #include "harness/sweep/text/printable.hpp"
 
 namespace loopbench::harness {
 namespace {
 
+template <class Value>
+std::string field_text(const Value& value) {
+  if constexpr (std::is_same_v<Value, SharedText>) {
+    return quoted(value);
+  } else if constexpr (std::is_same_v<Value, Status>) {
+    return to_text(value);
+  } else if constexpr (std::is_arithmetic_v<Value>) {
+    return fmt::format("{}", value);
+  } else {
+    return value ? fmt::format("{}", *value) : "";
+  }
+}
+
 /// The fields of rows_header(), quoted where necessary.
 std::vector<std::string> fields_of(const Record& r) {
   const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
-  const auto boolean = [](bool x) { return fmt::format("{}", x); };
-  std::vector<std::string> out{quoted(r.cell->sequence),
-                               fmt::format("{}", r.cell->repeat),
-                               quoted(r.cell->method),
-                               quoted(r.cell->closures),
-                               boolean(r.cell->oracle_closures),
-                               boolean(r.cell->oracle)};
+  std::vector<std::string> out;
+  fields(*r.cell, [&](const CellColumn& column, const auto& value) {
+    if (column.name_in_rows[0] != '\0') out.push_back(field_text(value));
+  });
   out.reserve(40);
   for (const KindField& each : kKindFields) {
     const bool is_label = each.text == &ScoreKind::label;
@@ -71,7 +83,11 @@ std::string quoted(const std::string& raw) {
 }
 
 std::string rows_header() {
-  std::string out = "sequence,repeat,method,closures,oracle_closures,oracle_method,";
+  std::string out;
+  const CellRow none;
+  fields(none, [&](const CellColumn& column, const auto&) {
+    if (column.name_in_rows[0] != '\0') out += std::string(column.name_in_rows) + ",";
+  });
   for (const KindField& each : kKindFields) out += std::string(each.name) + ",";
   out += "better,target,count,";
   for (const auto& each : metrics::kStatisticFields) out += std::string(each.name) + ",";

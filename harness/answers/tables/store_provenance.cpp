@@ -39,6 +39,9 @@ std::vector<std::string> provenance_entries(const StoreProvenance& provenance) {
   for (const auto& [key, value] : provenance.run) {
     if (!is_internal(key)) add_entry(out, key, value);
   }
+  for (const std::string& note : texts(provenance.notes, Severity::info)) {
+    add_entry(out, "note", note);
+  }
   return out;
 }
 
@@ -61,7 +64,10 @@ ProvenanceJson json_of(const StoreProvenance& provenance) {
   }
   std::map<std::string, std::string> run = provenance.run;
   std::erase_if(run, [](const auto& entry) { return is_internal(entry.first); });
-  return {{"run", run}, {"provenance", provenance.provenance}, {"inputs", std::move(inputs)}};
+  return {{"run", run},
+          {"provenance", provenance.provenance},
+          {"inputs", std::move(inputs)},
+          {"notes", ProvenanceJson::parse(json(provenance.notes))}};
 }
 
 std::string dumped(const ProvenanceJson& value) {
@@ -71,7 +77,7 @@ std::string dumped(const ProvenanceJson& value) {
 }  // namespace
 
 StoreProvenance read_store_provenance(const std::filesystem::path& store) {
-  return {read_run(store), read_provenance(store), read_inputs(store)};
+  return {read_run(store), read_provenance(store), read_inputs(store), counted_notes(store)};
 }
 
 std::string json(const StoreProvenance& provenance) { return dumped(json_of(provenance)) + "\n"; }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/answers/notes/counted_notes.hpp"
 #include "harness/sweep/model/sequence_metadata.hpp"
 
 namespace loopbench::harness {
@@ -14,12 +15,13 @@ struct StoreProvenance {
   std::map<std::string, std::string> run;                ///< config text, protocols, baseline
   std::map<std::string, std::string> provenance;         ///< commit, build, machine, seeds
   std::map<std::string, std::vector<InputFile>> inputs;  ///< by sequence
+  std::vector<CountedNote> notes;
 };
 
 /// Throws InputError if it is not a store.
 StoreProvenance read_store_provenance(const std::filesystem::path& store);
 
-/// {run, provenance, inputs: {SEQUENCE: [{path, bytes, xxh3_128}]}}, for the file next to a
+/// {run, provenance, inputs: {SEQUENCE: [{path, bytes, xxh3_128}]}, notes}, for the file next to a
 /// CSV.
 std::string json(const StoreProvenance& provenance);
 

@@ -11,7 +11,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/answers/compare/derived.hpp"
-#include "harness/answers/tables/notes.hpp"
+#include "harness/answers/tables/reasons.hpp"
 #include "harness/sweep/model/name_order.hpp"
 #include "harness/sweep/model/where.hpp"
 #include "harness/sweep/store/read.hpp"

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "harness/answers/tables/comparison.hpp"
-#include "harness/answers/tables/notes.hpp"
 #include "harness/answers/tables/pivot.hpp"
+#include "harness/answers/tables/reasons.hpp"
 #include "harness/sweep/text/counted.hpp"
 
 namespace loopbench::harness {
@@ -106,7 +106,9 @@ void sort_lines(Table& out, const Comparison& c) {
 
 }  // namespace
 
-std::vector<Table> summary(const std::vector<Record>& records, const SummaryOptions& options) {
+std::vector<Table> summary(const std::vector<Record>& records,
+                           const SummaryOptions& options,
+                           std::set<std::string>* stated) {
   const std::vector<Record> candidates = comparable(records, options);
   const auto lead = std::ranges::find_if(candidates, [](const Record& r) { return r.has_score(); });
   if (lead == candidates.end()) return {};
@@ -145,6 +147,11 @@ std::vector<Table> summary(const std::vector<Record>& records, const SummaryOpti
   const std::string oracle = oracle_closures_note(oracle_sequences, kMostSequences);
   if (!oracle.empty()) table.notes.push_back(oracle);
   for (std::string& line : reasons(compared)) table.notes.push_back(std::move(line));
+  if (stated != nullptr) {
+    for (const Record& r : compared) {
+      if (r.status != Status::ok) stated->insert(r.why);
+    }
+  }
   out.insert(out.begin(), std::move(table));
   return out;
 }

@@ -1,6 +1,7 @@
 /// The result of a whole sweep.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct SummaryOptions {
 /// translation and rotation, beside the first relative error and the time of the processor, means
 /// over the runs. At most sixteen methods, in the order of the verdict, the baseline among them.
 /// The records are those of `all_records`. Throws InputError for an unknown statistic. Without any
-/// score there are no tables. O(n log n) plus the cost of `compare`.
-std::vector<Table> summary(const std::vector<Record>& records, const SummaryOptions& options);
+/// score there are no tables. `stated`, if given, receives the reasons for missing values that the
+/// tables state or count. O(n log n) plus the cost of `compare`.
+std::vector<Table> summary(const std::vector<Record>& records,
+                           const SummaryOptions& options,
+                           std::set<std::string>* stated = nullptr);
 
 }  // namespace loopbench::harness

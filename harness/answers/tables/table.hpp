@@ -36,6 +36,7 @@ struct Table {
   std::vector<std::string> headings;          ///< with units
   std::vector<std::vector<TableCell>> lines;  ///< [row][column]
   std::vector<std::string> notes;             ///< one per line, below the table
+  std::vector<std::string> above = {};        ///< what can change a conclusion, above the title
   std::string facts = {};  ///< for captions of papers: statistic, times, alignment, number of runs
   std::size_t note_width = 0;  ///< of the notes in Markdown; 0: one line each
   bool has_scores = true;      ///< false: all its cells are without a score
@@ -93,9 +94,9 @@ std::string latex(const Table& table, bool wide = false);
 /// `mark` is best or empty.
 std::string csv(const std::vector<Table>& tables);
 
-/// Array of {title, row_names, columns, rows, notes, cells[row][column] {value, records, averaged,
-/// deviation, possible, status, mark}}: the means; value is null unless status is ok, and the text
-/// of a cell without a mean.
+/// Array of {title, row_names, columns, rows, notes, above, cells[row][column] {value, records,
+/// averaged, deviation, possible, status, mark}}: the means; value is null unless status is ok, and
+/// the text of a cell without a mean.
 std::string json(const std::vector<Table>& tables);
 
 /// Padded with spaces to that width.

@@ -14,9 +14,8 @@ std::string csv(const std::vector<Table>& tables) {
     for (const auto& line : table.lines) {
       for (std::size_t c = 1; c < line.size(); ++c) {
         const TableCell& cell = line[c];
-        const std::string value = cell.value      ? fmt::format("{}", *cell.value)
-                                  : cell.has_mean ? ""
-                                                  : quoted(cell.text);
+        const std::string text = cell.has_mean ? "" : quoted(cell.text);
+        const std::string value = cell.value ? fmt::format("{}", *cell.value) : text;
         if (value.empty() && cell.status.empty()) continue;
         out += fmt::format("{},{},{},{},{},{},{},{}\n",
                            quoted(table.title),
@@ -60,6 +59,7 @@ std::string json(const std::vector<Table>& tables) {
                    {"columns", std::vector(table.headings.begin() + 1, table.headings.end())},
                    {"rows", std::move(rows)},
                    {"notes", table.notes},
+                   {"above", table.above},
                    {"cells", std::move(cells)}});
   }
   const auto replace = Json::error_handler_t::replace;  // names can be invalid UTF-8

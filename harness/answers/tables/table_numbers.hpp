@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "harness/answers/compare/compare.hpp"
-#include "harness/answers/tables/notes.hpp"
+#include "harness/answers/tables/reasons.hpp"
 #include "harness/answers/tables/table.hpp"
 #include "harness/sweep/model/name_order.hpp"
 #include "harness/sweep/model/record.hpp"

@@ -32,7 +32,8 @@ std::vector<PrintedColumn> columns_of(const Table& table) {
     for (const auto& line : table.lines) has_mark = has_mark || line[c].is_best;
     for (const auto& line : table.lines) {
       // The mark has its own column, so that digits are aligned.
-      const char* sign = line[c].is_best ? "*" : has_mark && c > 0 ? " " : "";
+      const char* const no_sign = has_mark && c > 0 ? " " : "";
+      const char* const sign = line[c].is_best ? "*" : no_sign;
       column.entries.push_back(one_line(line[c].text) + sign);
       column.is_best.push_back(line[c].is_best);
     }
@@ -140,6 +141,13 @@ std::string terminal(const Table& all, const TerminalStyle& style) {
   }
   if (is_too_wide()) shorten_names(columns[0], std::max<std::size_t>(12, style.width / 2));
   std::string out;
+  for (const std::string& sentence : table.above) {
+    const std::size_t room = style.width == 0 ? 0 : std::max<std::size_t>(20, style.width - 2);
+    const char* begin = "! ";
+    for (const std::string& line : wrapped(one_line(sentence), room)) {
+      add_line(out, std::exchange(begin, "  ") + line);
+    }
+  }
   for (const std::string& line : wrapped(one_line(table.title), style.width)) {
     if (!line.empty()) out += style.color ? "\033[1m" + line + "\033[0m\n" : line + "\n";
   }

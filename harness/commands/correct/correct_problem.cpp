@@ -6,6 +6,7 @@
 #include "harness/commands/correct/correct.hpp"
 #include "harness/sweep/catalogue/external_methods.hpp"
 #include "harness/sweep/config/choices.hpp"
+#include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/run/check_output.hpp"
 #include "harness/sweep/run/evaluation_notes.hpp"
 #include "metrics/correction/graph_cost.hpp"
@@ -98,7 +99,7 @@ Correction correct(Problem problem,
   out.rejected = rejected_closures(out);
   // Of the solver's start, not of the input.
   std::erase_if(out.report.counts, [](const auto& c) { return c.name.ends_with("chi2_before"); });
-  for (std::string& note : closure_notes(kept)) out.report.notes.push_back(std::move(note));
+  for (const Note& note : closure_notes(kept)) out.report.notes.push_back(text(note));
   return out;
 }
 

@@ -71,7 +71,8 @@ std::string below_reference_error(const EvalArguments& a, std::vector<Record> re
 Detail detail_of(const EvalArguments& a) {
   const bool is_chosen =
       !a.metrics.empty() || !a.relation.empty() || a.delta || !a.delta_unit.empty();
-  return a.full ? Detail::all : is_chosen ? Detail::scores : Detail::summary;
+  if (a.full) return Detail::all;
+  return is_chosen ? Detail::scores : Detail::summary;
 }
 
 std::string result_text(const EvalArguments& a, const Evaluations& evaluations) {
@@ -128,6 +129,11 @@ void return_large_lists() {
 #endif
 }
 
+std::string printed(const EvalArguments& a, const Evaluations& all) {
+  if (a.json) return json(all.results);
+  return a.csv ? csv(all.records) : printable(result_text(a, all));
+}
+
 int eval(const EvalArguments& a, const Source& source) {
   return_large_lists();
   check_outputs(a);
@@ -135,9 +141,7 @@ int eval(const EvalArguments& a, const Source& source) {
   if (!a.store.empty()) return print_stored(a, all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all.results));
   write_figures(a, all);
-  const std::string text = a.json  ? json(all.results)
-                           : a.csv ? csv(all.records)
-                                   : printable(result_text(a, all));
+  const std::string text = printed(a, all);
   if (is_dash(a.per_pose) && is_dash(a.out)) {
     fmt::print(stderr, "{}", text);  // rows are on standard output
   } else {

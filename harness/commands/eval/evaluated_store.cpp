@@ -8,14 +8,13 @@
 #include <tuple>
 
 #include "datasets/core/error.hpp"
+#include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/store/open.hpp"
 #include "harness/sweep/store/read.hpp"
 #include "harness/sweep/text/counted.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-constexpr std::string_view kDoctor = "doctor: ";
 
 auto run_labels(const EvaluatedRun& run) { return std::tie(run.sequence, run.method, run.run); }
 
@@ -91,18 +90,18 @@ void StoreSummary::add(const CellResult& result, const std::string& estimate) {
   const bool names_file = why.find(estimate) != std::string::npos;
   if (!why.empty()) failures_.push_back(names_file ? why : estimate + ": " + why);
   if (!result.metadata) return;
-  std::set<std::string> own;  // a file can have several notes of one kind
-  for (const std::string& note : result.metadata->notes) {
-    const std::size_t begin = note.starts_with(kDoctor) ? kDoctor.size() : 0;
-    const std::string kind = note.substr(0, note.find(':', begin));
-    if (own.insert(kind).second) notes_.add(kind, estimate + ": " + note);
+  std::set<std::pair<NoteKind, std::string>> own;  // a file can have several notes of one kind
+  for (const Note& note : result.metadata->notes) {
+    const bool is_text = note.numbers.empty() && !is_of_doctor(note.kind);
+    const std::pair<NoteKind, std::string> key(note.kind, is_text ? note.detail : "");
+    if (own.insert(key).second) notes_.add(key, estimate + ": " + harness::text(note));
   }
 }
 
 std::vector<std::string> StoreSummary::notes() const {
   std::vector<std::string> doctor, others;
-  for (const auto& [kind, list] : notes_.lists) {
-    std::string& line = (kind.starts_with(kDoctor) ? doctor : others).emplace_back(list.front());
+  for (const auto& [key, list] : notes_.lists) {
+    std::string& line = (is_of_doctor(key.first) ? doctor : others).emplace_back(list.front());
     if (list.size() > 1) line += " (and " + counted(list.size() - 1, "more run") + ")";
   }
   doctor.insert(doctor.end(), others.begin(), others.end());

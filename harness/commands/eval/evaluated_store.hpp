@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/answers/tables/notes.hpp"
+#include "harness/answers/tables/reasons.hpp"
 #include "harness/commands/eval/evaluated_sweep.hpp"
 #include "harness/sweep/model/result.hpp"
 
@@ -35,9 +35,9 @@ class StoreSummary {
   /// None failed, of no run a metric failed, and none has a low coverage.
   bool is_ok() const { return failures_.empty() && incomplete_ == 0; }
 
-  /// One line for each kind of notes (the text before the first colon, or the second one after
-  /// "doctor:"): that of the first file with it, and the number of further files. Findings of the
-  /// doctor first, then in order of appearance.
+  /// One line for each kind of notes, or for each text of those without numbers: that of the first
+  /// file with it, and the number of further files. Findings of the doctor first, then in order of
+  /// appearance.
   std::vector<std::string> notes() const;
 
   /// "40 runs in FILE (39 stored before), 1 failed", and the reasons of at most five failures.
@@ -47,8 +47,8 @@ class StoreSummary {
 
  private:
   std::size_t incomplete_;
-  std::vector<std::string> failures_;  ///< "FILE: reason"
-  ListsByKey<std::string> notes_;      ///< by kind
+  std::vector<std::string> failures_;                   ///< "FILE: reason"
+  ListsByKey<std::pair<NoteKind, std::string>> notes_;  ///< by kind, and text without numbers
 };
 
 }  // namespace loopbench::harness

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "datasets/core/fields.hpp"
 #include "harness/commands/eval/file_evaluation.hpp"
@@ -21,11 +22,11 @@ namespace loopbench::harness {
 /// The error without alignment, if the files are in one datum: as stated (converted from WGS 84
 /// about one origin), or frames that differ by less than a tenth of the reference's size, of which
 /// the alignment hides at least half; otherwise empty. O(n).
-inline std::string shared_datum(const metrics::Evaluation& evaluation, bool is_one_datum) {
+inline std::optional<Note> shared_datum(const metrics::Evaluation& evaluation, bool is_one_datum) {
   constexpr double kNear = 0.1, kHidden = 0.5;
   const metrics::Alignment& fit = evaluation.alignment;
   const bool is_projected = evaluation.protocol.project != metrics::ProjectionPlane::none;
-  if (fit.type == metrics::Align::none || is_projected) return "";
+  if (fit.type == metrics::Align::none || is_projected) return std::nullopt;
   const Pose estimate_from_reference = fit.reference_from_estimate.inverse();
   const auto& pairs = evaluation.reference;
   Vector3 mean = Vector3::Zero();
@@ -42,66 +43,67 @@ inline std::string shared_datum(const metrics::Evaluation& evaluation, bool is_o
   }
   const bool is_near =
       unaligned <= kNear * kNear * size && aligned <= kHidden * kHidden * unaligned;
-  if (!is_one_datum && !is_near) return "";
+  if (!is_one_datum && !is_near) return std::nullopt;
   const auto count = static_cast<double>(pairs.size());
-  return fmt::format(
-      "datum: both files {} in the same frame: ATE {:.4g} m without alignment (--align none), "
-      "{:.4g} m "
-      "with {}",
-      is_one_datum ? "are" : "seem to be",
-      std::sqrt(unaligned / count),
-      std::sqrt(aligned / count),
-      to_text(fit.type));
+  return Note{.kind = NoteKind::datum,
+              .severity = Severity::caution,
+              .numbers = {{"unaligned", std::sqrt(unaligned / count), "m"},
+                          {"aligned", std::sqrt(aligned / count), "m"},
+                          {"stated", is_one_datum ? 1.0 : 0.0}},
+              .remedy = {"--align", "none"},
+              .detail = to_text(fit.type)};
 }
 
 /// Whether the ATE exceeds the reference's own error of `sigma` [m] per axis; empty for 0. O(n).
-inline std::string reference_error(const metrics::Evaluation& evaluation, double sigma) {
-  if (sigma == 0.0) return "";
+inline std::optional<Note> reference_error(const metrics::Evaluation& evaluation, double sigma) {
+  if (sigma == 0.0) return std::nullopt;
   const double own = std::sqrt(3.0) * sigma;
   const double error = metrics::ate(evaluation, {}).front().statistics.rmse;
-  const std::string text =
-      fmt::format("reference: {:g} m per axis are a position error of {:.3g} m (rmse)", sigma, own);
-  if (error <= own) {
-    return text + fmt::format(": the ATE of {:.3g} m is below it and shows nothing else", error);
-  }
-  return text + fmt::format("; without it, an ATE of {:.4g} m would be about {:.4g} m",
-                            error,
-                            std::sqrt(error * error - own * own));
+  return Note{.kind = NoteKind::reference_error,
+              .severity = Severity::caution,
+              .numbers = {{"error", own, "m"},
+                          {"sigma", sigma, "m"},
+                          {"ate", error, "m"},
+                          {"without", std::sqrt(std::max(0.0, error * error - own * own)), "m"}}};
 }
 
 /// What pairs more poses, if less than half of the file with fewer are paired; otherwise empty.
-inline std::string few_pairs(const metrics::Evaluation& evaluation,
-                             const Trajectory& reference,
-                             const Trajectory& estimate) {
+inline std::optional<Note> few_pairs(const metrics::Evaluation& evaluation,
+                                     const Trajectory& reference,
+                                     const Trajectory& estimate) {
   const auto& [pairs, possible, span, bridged] = evaluation.coverage;
-  if (2 * pairs >= std::min(possible, reference.size())) return "";
+  if (2 * pairs >= std::min(possible, reference.size())) return std::nullopt;
   const std::string remedies = pairing_remedies(reference, estimate, evaluation.protocol);
-  return remedies.empty() ? ""
-                          : fmt::format("{} of {} poses are paired", pairs, possible) + remedies;
+  if (remedies.empty()) return std::nullopt;
+  return Note{.kind = NoteKind::unpaired,
+              .severity = Severity::decisive,
+              .numbers = {{"pairs", static_cast<double>(pairs)},
+                          {"possible", static_cast<double>(possible)}},
+              .detail = remedies};
 }
 
 /// A note if the files have no stamps, and therefore pairs of rows; otherwise empty.
-inline std::string paired_rows(const metrics::Evaluation& evaluation,
-                               const FileClock& one,
-                               const FileClock& other) {
+inline std::optional<Note> paired_rows(const metrics::Evaluation& evaluation,
+                                       const FileClock& one,
+                                       const FileClock& other) {
   const bool by_rows = one.clock == Clock::rows && other.clock == Clock::rows;
-  if (!by_rows || one.rows != other.rows || evaluation.protocol.offset != 0.0) return "";
-  return fmt::format("paired by row: the files have {} rows each and no stamps", one.rows);
+  if (!by_rows || one.rows != other.rows || evaluation.protocol.offset != 0.0) {
+    return std::nullopt;
+  }
+  return Note{.kind = NoteKind::paired_rows, .numbers = {{"rows", static_cast<double>(one.rows)}}};
 }
 
 /// Whether a finding of the doctor explains errors that another body would explain, too.
-inline bool explains_other_body(const std::string& note) {
-  using metrics::Fault;
-  constexpr std::array kFaults{Fault::time_offset,
-                               Fault::constant_rotation,
-                               Fault::inverted_poses,
-                               Fault::quaternion_order,
-                               Fault::axes,
-                               Fault::mirrored,
-                               Fault::wrong_recording};
-  return std::ranges::any_of(kFaults, [&](Fault::Name fault) {
-    return note.starts_with("doctor: " + std::string(fault) + ":");
-  });
+inline bool explains_other_body(const Note& note) {
+  using enum NoteKind;
+  constexpr std::array kKinds{time_offset,
+                              constant_rotation,
+                              inverted_poses,
+                              quaternion_order,
+                              axes,
+                              mirrored,
+                              wrong_recording};
+  return std::ranges::count(kKinds, note.kind) > 0;
 }
 
 /// Poses with the increasing stamps that the doctor needs: the first pose of each stamp, or
@@ -122,7 +124,7 @@ inline const Trajectory& for_doctor(const Trajectory& poses, bool by_index, Traj
 }
 
 /// Which alignment was taken, if a trajectory is in one plane and the protocol decides. O(n).
-inline std::string plane_note(const metrics::Evaluation& evaluation) {
+inline std::string plane_text(const metrics::Evaluation& evaluation) {
   const metrics::Align align = evaluation.protocol.align;
   const bool is_fitted = align == metrics::Align::se3 || align == metrics::Align::sim3;
   if (evaluation.protocol.planar == Planar::no || !is_fitted) return "";
@@ -139,12 +141,12 @@ inline std::string plane_note(const metrics::Evaluation& evaluation) {
   const bool is_reference = motion_plane(evaluation.reference).has_value();
   const bool is_estimate = motion_plane(evaluation.estimate).has_value();
   if (!is_reference && !is_estimate) return "";
-  return std::string("spatial: ") +
-         (is_reference && is_estimate ? "both trajectories are in one plane, but their bodies have "
-                                        "different axes"
-          : is_reference              ? "the reference is in one plane, but the estimate is not"
-                                      : "the estimate is in one plane, but the reference is not") +
-         ", so all six degrees of freedom are aligned";
+  const char* which = "the estimate is in one plane, but the reference is not";
+  if (is_reference) which = "the reference is in one plane, but the estimate is not";
+  if (is_reference && is_estimate) {
+    which = "both trajectories are in one plane, but their bodies have different axes";
+  }
+  return std::string("spatial: ") + which + ", so all six degrees of freedom are aligned";
 }
 
 /// Sets diagnosis, notes and other_body. O(n log n).
@@ -155,13 +157,15 @@ inline void add_checks(EvaluationResult& out,
                        const EvaluatedSweep& files) {
   out.diagnosis = metrics::diagnostics(evaluation, {});
   out.notes = evaluation_notes(reference.poses, evaluation);
-  for (const std::string& note :
+  for (const std::optional<Note>& note :
        {shared_datum(evaluation, reference.findings.origin && estimate.findings.origin),
         reference_error(evaluation, files.arguments.reference_sigma),
         paired_rows(evaluation, reference.clock, estimate.clock),
-        few_pairs(evaluation, reference.poses, estimate.poses),
-        plane_note(evaluation)}) {
-    if (!note.empty()) out.notes.push_back(note);
+        few_pairs(evaluation, reference.poses, estimate.poses)}) {
+    if (note) out.notes.push_back(*note);
+  }
+  if (const std::string plane = plane_text(evaluation); !plane.empty()) {
+    out.notes.push_back({.kind = NoteKind::plane, .detail = plane});
   }
   const double off_unit = std::max(reference.findings.off_unit, estimate.findings.off_unit);
   for (metrics::Score& score : out.diagnosis) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/core/error.hpp"
+#include "harness/answers/notes/note_json.hpp"
 #include "harness/answers/tables/record_csv.hpp"
 #include "metrics/numerics/angle.hpp"
 
@@ -63,9 +64,8 @@ Json to_json(const EvaluationResult& result) {
   Json undefined = Json::array();
   Json failed = Json::array();
   for (const Record& record : result.records) {
-    Json& list = has_numbers(record.status)  ? scores
-                 : is_failure(record.status) ? failed
-                                             : undefined;
+    Json& without = is_failure(record.status) ? failed : undefined;
+    Json& list = has_numbers(record.status) ? scores : without;
     list.push_back(to_json(record));
   }
   const auto [status, why] = status_of(result);
@@ -90,7 +90,9 @@ Json to_json(const EvaluationResult& result) {
     out["span"] = result.coverage.span;
     out["alignment"] = to_json(result.alignment);
     out["diagnosis"] = std::move(diagnosis);
-    out["notes"] = result.notes;
+    out["notes"] = texts(result.notes);
+    out["facts"] = Json::array();
+    for (const Note& note : result.notes) out["facts"].push_back(to_json(note));
   }
   out["metrics"] = std::move(scores);
   out["undefined"] = std::move(undefined);

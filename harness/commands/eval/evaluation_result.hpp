@@ -29,7 +29,7 @@ struct EvaluationResult {
   metrics::Alignment alignment;
   std::vector<metrics::Score> diagnosis;  ///< metric `diagnostics` with its defaults
   std::string other_body;                 ///< set if the reference seems to track another body
-  std::vector<std::string> notes;         ///< of the readers, the doctor and the evaluation
+  std::vector<Note> notes;                ///< of the readers, the doctor and the evaluation
   std::vector<metrics::PoseError> poses;  ///< only on request
   std::vector<PoseValues> pose_values;    ///< of metrics, for each of `poses`; with them
   /// Only on request: the complete reference and the paired and aligned estimate, without a name
@@ -64,7 +64,8 @@ std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
 /// reference_body (if given), other_body (if detected), estimate, protocol {name, version,
 /// changes, rules}, status (see above), why, pairs, possible, coverage (pairs / possible), span,
 /// alignment {type, scale, rank, condition, and reference_from_estimate as x, y, z, qx, qy, qz, qw,
-/// so that `traj transform --left FILE` reads it}, diagnosis {name: value}, notes [text], metrics
+/// so that `traj transform --left FILE` reads it}, diagnosis {name: value}, notes [text], facts
+/// [the notes as data, see note_json.hpp], metrics
 /// [{metric, label, relation, axis, unit, rmse, mean, median, std, min, max, count}], undefined and
 /// failed [{metric, label, relation, axis, why}], without relation and axis if all scores of the
 /// metric are. Failed evaluations have empty metrics, undefined and failed.

@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <sstream>
 
-#include "harness/answers/tables/notes.hpp"
 #include "harness/answers/tables/pivot.hpp"
+#include "harness/answers/tables/reasons.hpp"
 #include "harness/commands/eval/evaluation_result.hpp"
+#include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/text/counted.hpp"
 #include "harness/sweep/text/wrap.hpp"
 
@@ -174,7 +175,7 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
                     Detail detail,
                     bool has_totals) {
   std::vector<Record> records;
-  std::vector<Missing> notes;
+  std::vector<Missing> notes, above;
   for (const EvaluationResult* result : results) {
     const bool is_unique =
         std::ranges::count(results, estimate_name_of(result), estimate_name_of) == 1;
@@ -182,7 +183,10 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
     const std::vector<Record> own = compared_records(*result, name, detail, has_totals);
     records.insert(records.end(), own.begin(), own.end());
     if (!result->other_body.empty()) notes.push_back({name, "", "other body", result->other_body});
-    for (const std::string& note : result->notes) notes.push_back({name, "", "note", note});
+    for (const Note& note : result->notes) {
+      const bool is_above = note.severity == Severity::decisive;
+      (is_above ? above : notes).push_back({name, "", "note", text(note)});
+    }
   }
   const EvaluationResult& first = *results.front();
   TableSpec spec;
@@ -197,6 +201,7 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
                           first.reference,
                           is_aligned ? "" : ", not aligned",
                           body_text(first));
+  out.above = grouped(above);
   for (std::string& note : grouped(notes)) out.notes.push_back(std::move(note));
   if (detail == Detail::all) {
     out.notes.push_back("other statistics: --set statistic=max, --csv, or one estimate at a time");
@@ -236,7 +241,7 @@ std::string text(const EvaluationResult& result,
                                         style ? std::min(columns, kWidth) : kWidth)
                              : "") +
       line("other body", result.other_body.empty() ? "" : result.other_body + "; see --ref-body");
-  for (const std::string& note : result.notes) out += line("note", note);
+  for (const Note& note : result.notes) out += line("note", text(note));
   if (detail == Detail::summary) {
     EvaluationResult row = result;
     std::erase_if(row.records, [&](const Record& record) {
@@ -247,6 +252,7 @@ std::string text(const EvaluationResult& result,
     }
     Table summary = comparison({row}, detail).front();
     summary.title.clear();
+    summary.above.clear();
     summary.notes = grouped(missing_scores(row, ""));
     return out + "\n" + terminal(summary, {style ? columns : 80, style && style->color});
   }

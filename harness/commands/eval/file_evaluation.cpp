@@ -14,6 +14,7 @@
 #include "harness/commands/eval/evaluation_checks.hpp"
 #include "harness/commands/eval/pairing_remedies.hpp"
 #include "harness/sweep/model/evaluated_run.hpp"
+#include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/run/add_scores.hpp"
 #include "harness/sweep/run/check_output.hpp"
 #include "harness/sweep/run/evaluation_notes.hpp"
@@ -56,13 +57,12 @@ SequenceMetadata metadata_of(const EvaluatedRun& run,
   return out;
 }
 
-std::string common_times_note(const Trajectory& estimate, const std::string& common) {
+Note common_times_note(const Trajectory& estimate, const std::string& common) {
   const std::size_t kept = poses_within(estimate, common).size();
-  return fmt::format(
-      "evaluated over the times that all estimates of the sequence cover: {} of {} poses are left "
-      "out (--common no evaluates all)",
-      estimate.size() - kept,
-      estimate.size());
+  return {.kind = NoteKind::common_times,
+          .numbers = {{"left out", static_cast<double>(estimate.size() - kept)},
+                      {"poses", static_cast<double>(estimate.size())}},
+          .remedy = {"--common", "no"}};
 }
 
 const std::vector<Matrix6>* unless_empty(const std::vector<Matrix6>& covariances) {
@@ -184,19 +184,19 @@ FileEvaluation not_evaluated(const Cell& cell, const EvaluatedSweep& files) {
 
 /// Notes of the evaluations belong to the cell, those of the files to every evaluation; a failed
 /// one states what the doctor found, which can be why.
-void share_notes(std::vector<EvaluationResult>& evaluations, std::vector<std::string>& of_cell) {
-  const std::vector<std::string> of_files = of_cell;
+void share_notes(std::vector<EvaluationResult>& evaluations, std::vector<Note>& of_cell) {
+  const std::vector<Note> of_files = of_cell;
   for (EvaluationResult& own : evaluations) {
     if (!own.why_failed.empty()) {
-      for (const std::string& note : of_files) {
+      for (const Note& note : of_files) {
         // The error states both ranges itself.
-        const bool is_known = note.starts_with("doctor: no_overlap") &&
-                              note.find("frame numbers") == std::string::npos;
-        if (note.starts_with("doctor: ") && !is_known) own.why_failed += "; " + note;
+        const bool is_known =
+            note.kind == NoteKind::no_overlap && note.number("frame numbers") == 0.0;
+        if (is_of_doctor(note.kind) && !is_known) own.why_failed += "; " + text(note);
       }
       continue;
     }
-    for (const std::string& note : own.notes) {
+    for (const Note& note : own.notes) {
       if (std::ranges::count(of_cell, note) == 0) of_cell.push_back(note);
     }
     own.notes.insert(own.notes.end(), of_files.begin(), of_files.end());
@@ -229,9 +229,9 @@ FileEvaluation evaluate_poses(const Cell& cell,
   FileEvaluation out = not_evaluated(cell, files);
   SequenceMetadata metadata = metadata_of(run, reference, &estimate);
   const bool is_large = estimate.poses.size() >= kMinItemsPerThread;
-  std::future<std::vector<std::string>> doctor =
+  std::future<std::vector<Note>> doctor =
       std::async(is_large ? std::launch::async : std::launch::deferred, [&] {
-        if (!files.arguments.diagnose) return std::vector<std::string>{};
+        if (!files.arguments.diagnose) return std::vector<Note>{};
         const bool by_index = std::ranges::all_of(files.sweep.protocols, [](const auto& each) {
           return each.rules.association == metrics::Association::index;
         });
@@ -250,10 +250,15 @@ FileEvaluation evaluate_poses(const Cell& cell,
   for (std::size_t p = 0; p < out.protocols.size(); ++p) evaluation.evaluate(p);
   for (const EvaluatedFile* file : {&reference.read, &estimate}) {
     const bool is_reference = file == &reference.read;
-    std::ranges::move(reading_notes(file->findings, is_reference ? "reference" : "estimate"),
-                      std::back_inserter(metadata.notes));
-    if (!file->findings.damage.empty())
-      metadata.notes.push_back("damaged file: " + file->findings.damage);
+    for (const std::string& words :
+         reading_notes(file->findings, is_reference ? "reference" : "estimate")) {
+      metadata.notes.push_back({.detail = words});
+    }
+    if (!file->findings.damage.empty()) {
+      metadata.notes.push_back({.kind = NoteKind::damaged_file,
+                                .severity = Severity::decisive,
+                                .detail = file->findings.damage});
+    }
   }
   std::ranges::move(doctor.get(), std::back_inserter(metadata.notes));
   share_notes(out.protocols, metadata.notes);

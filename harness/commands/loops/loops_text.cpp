@@ -29,7 +29,11 @@ Json row_json(const LoopsResult& result, std::size_t rank) {
   Json out;
   for (const auto& [name, value] : ledger_row(result, rank)) {
     const Json number = Json::parse(value, nullptr, false);
-    out[name] = value.empty() ? Json() : number.is_discarded() ? Json(value) : number;
+    if (value.empty()) {
+      out[name] = Json();
+    } else {
+      out[name] = number.is_discarded() ? Json(value) : number;
+    }
   }
   return out;
 }

@@ -16,6 +16,7 @@
 #include "harness/sweep/catalogue/external_methods.hpp"
 #include "harness/sweep/catalogue/load_sequence.hpp"
 #include "harness/sweep/config/read_sweep.hpp"
+#include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/process/sandbox.hpp"
 #include "harness/sweep/process/write_file.hpp"
 #include "harness/sweep/run/build.hpp"
@@ -125,7 +126,7 @@ CellCounts compute(const RunPlan& plan,
   if (resumed.missing.empty()) return out;
   Progress progress(resumed.missing.size());
   const std::vector<InputFile> no_inputs;
-  std::map<std::string, std::pair<std::string, int>> unsteady;  // first note of a method, count
+  std::map<std::string, std::pair<Note, int>> unsteady;  // first note of a method, count
   const auto finished = [&](const CellResult& r) {
     if (r.status == Status::interrupted) {
       ++out.abandoned;
@@ -137,8 +138,8 @@ CellCounts compute(const RunPlan& plan,
     ++out.done;
     if (has_failure(r)) ++out.failed;
     if (r.status == Status::incomplete) ++out.incomplete;
-    for (const std::string& note : r.report.notes) {
-      if (!note.starts_with(kNondeterministic)) continue;
+    for (const Note& note : r.notes) {
+      if (note.kind != NoteKind::nondeterministic) continue;
       auto& [first, count] = unsteady[method];
       if (count++ == 0) first = note;
     }
@@ -152,7 +153,7 @@ CellCounts compute(const RunPlan& plan,
   for (const auto& [method, note] : unsteady) {
     const int others = note.second - 1;
     const std::string more = others == 0 ? "" : fmt::format(" (and {} more cells)", others);
-    print_error("{}\n", printable(method + ": " + note.first + more));
+    print_error("{}\n", printable(method + ": " + text(note.first) + more));
   }
   return out;
 }
@@ -174,7 +175,7 @@ void tell(const RunPlan& plan, const CellCounts& counts, std::optional<Store>& s
       const std::vector<Record> records =
           all_records(plan.store(), asked_by(plan.sweep.table, plan.sweep.table.where));
       // Methods of an interrupted sweep have different runs: their means are no comparison.
-      if (stop_requests == 0) fmt::print("{}", summary_text(records, plan.sweep));
+      if (stop_requests == 0) fmt::print("{}", summary_text(plan.store(), records, plan.sweep));
       write_tables(plan.store(), plan.sweep, records, plan.out);
     }
     store->close();
@@ -228,7 +229,8 @@ int run_config(const RunArguments& arguments, const Source& source) {
   if (counts.done == 0) return kExitInterrupted;
   tell(planned, counts, store);
   const bool is_failure = counts.failed > 0 && !arguments.failed_cells_ok;
-  return stop_requests > 0 ? kExitInterrupted : is_failure ? kExitSomeCellsFailed : kExitOk;
+  if (stop_requests > 0) return kExitInterrupted;
+  return is_failure ? kExitSomeCellsFailed : kExitOk;
 }
 
 }  // namespace

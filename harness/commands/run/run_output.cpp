@@ -8,8 +8,8 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
-#include "harness/answers/tables/notes.hpp"
 #include "harness/answers/tables/pivot.hpp"
+#include "harness/answers/tables/reasons.hpp"
 #include "harness/answers/tables/record_csv.hpp"
 #include "harness/answers/tables/store_provenance.hpp"
 #include "harness/answers/tables/summary.hpp"
@@ -193,7 +193,10 @@ void write_tables(const std::filesystem::path& store,
   write_result(out / "rows.csv", csv(all));
   std::vector<Record> records = all;
   keep_where(records, sweep.table.where);
-  const std::vector<Table> tables = pivot(records, sweep.table);
+  std::vector<Table> tables = pivot(records, sweep.table);
+  if (!tables.empty()) {
+    tables.front().above = texts(counted_notes(store, sweep.table.where), Severity::decisive);
+  }
   const StoreProvenance provenance = read_store_provenance(store);
   const std::string text = markdown(tables) + "\n" + build_summary(provenance.provenance) + "\n";
   write_result(out / "table.md", text + "\n" + provenance_comment(provenance));
@@ -201,27 +204,25 @@ void write_tables(const std::filesystem::path& store,
   write_result(out / "table.csv", csv(tables));
 }
 
-std::string summary_text(std::vector<Record> records, const Sweep& sweep) {
+std::string summary_text(const std::filesystem::path& store,
+                         std::vector<Record> records,
+                         const Sweep& sweep) {
   keep_where(records, sweep.table.where);
-  const std::vector<Table> views =
-      summary(records, {sweep.baseline, sweep.table.value, sweep.table.show});
+  std::set<std::string> stated;
+  std::vector<Table> views =
+      summary(records, {sweep.baseline, sweep.table.value, sweep.table.show}, &stated);
   if (views.empty()) {
     return reasons_text(records, [](const Record& r) { return r.status != Status::ok; });
   }
+  views.front().above = texts(counted_notes(store, sweep.table.where), Severity::decisive);
   std::string out;
   for (const Table& view : views) {
     if (!out.empty()) out += "\n";
     out += prints_to_terminal() ? terminal(view, standard_output_style()) : markdown(view);
   }
-  const auto is_noted = [&](const Record& r) {
-    const std::string begin = std::string(r.cell->method) + ": ";
-    return std::ranges::any_of(views.front().notes, [&](const std::string& note) {
-      return note.find(r.why.text()) != std::string::npos ||
-             (note.starts_with(begin) && note.find(kFirstReason) != std::string::npos);
-    });
-  };
-  return out + reasons_text(records,
-                            [&](const Record& r) { return is_failure(r.status) && !is_noted(r); });
+  return out + reasons_text(records, [&](const Record& r) {
+           return is_failure(r.status) && !stated.contains(r.why);
+         });
 }
 
 std::string merge_command(const std::filesystem::path& out) {

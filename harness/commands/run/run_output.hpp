@@ -70,7 +70,9 @@ void write_tables(const std::filesystem::path& store,
                   const std::filesystem::path& out);
 
 /// The summary, as fits the terminal or as Markdown. Without any score, the reasons.
-std::string summary_text(std::vector<Record> records, const Sweep& sweep);
+std::string summary_text(const std::filesystem::path& store,
+                         std::vector<Record> records,
+                         const Sweep& sweep);
 
 /// The command that merges the stores of all shards in the folder `out`.
 std::string merge_command(const std::filesystem::path& out);

@@ -183,9 +183,8 @@ int transform(const TrajArguments& a) {
   std::optional<Similarity> similarity;
   if (!given.empty()) similarity = read_similarity(given);
   if (a.invert) similarity = inverse(*similarity);
-  const TransformSide side = a.right.empty() ? TransformSide::left
-                             : a.propagate   ? TransformSide::right_propagated
-                                             : TransformSide::right;
+  const TransformSide right = a.propagate ? TransformSide::right_propagated : TransformSide::right;
+  const TransformSide side = a.right.empty() ? TransformSide::left : right;
   return write_changed(a, [&](NamedTrajectory& each) {
     each.file = corrected(std::move(each.file), a.conventions);
     if (!similarity) return;

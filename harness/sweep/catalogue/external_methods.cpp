@@ -59,9 +59,12 @@ std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice
   std::unique_ptr<const methods::Replayer> replayer;
   for (const Choice& part : choice.stages) {
     const methods::MethodEntry& entry = find_method(catalogue, part.name);
-    methods::Stage stage = entry.make_oracle  ? entry.make_oracle(part.options, reference)
-                           : is_program(part) ? make_command(command_options(part.options, sweep))
-                                              : entry.make(part.options);
+    const auto make = [&]() -> methods::Stage {
+      if (entry.make_oracle) return entry.make_oracle(part.options, reference);
+      if (is_program(part)) return make_command(command_options(part.options, sweep));
+      return entry.make(part.options);
+    };
+    methods::Stage stage = make();
     const auto take = [&stage](auto& to) {
       using Held = std::remove_reference_t<decltype(to)>;
       if (auto* held = std::get_if<Held>(&stage)) to = std::move(*held);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "datasets/images/frontend.hpp"
+#include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/text/print_error.hpp"
 #include "harness/sweep/text/printable.hpp"
 #include "harness/sweep/text/wrap.hpp"
@@ -53,10 +54,10 @@ inline rgbd::FrontendProgress loading_progress() {
 }
 
 /// Prints the notes of a sequence to stderr, each prefixed with `label`.
-inline void print_notes(const std::string& label, const std::vector<std::string>& notes) {
+inline void print_notes(const std::string& label, const std::vector<Note>& notes) {
   std::string out;
-  for (const std::string& note : notes) {
-    out += fmt::format("{}: {}\n", printable(label), printable(note));
+  for (const Note& note : notes) {
+    out += fmt::format("{}: {}\n", printable(label), printable(text(note)));
   }
   print_error("{}", out);
 }

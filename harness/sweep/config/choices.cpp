@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/sweep/catalogue/external_methods.hpp"
 #include "harness/sweep/config/values.hpp"
 #include "harness/sweep/text/suggest.hpp"
 
@@ -146,6 +147,24 @@ metrics::NamedProtocol protocol_choice(const YamlNode& node) {
   }
 }
 
+/// Adds the name of a stage to the parts of its method.
+void add_part(MethodParts& parts, const methods::MethodEntry& stage, const Choice& choice) {
+  switch (stage.kind) {
+    case methods::Kind::replay:
+      parts.replay = stage.name;
+      break;
+    case methods::Kind::smoother:
+      parts.smoother = stage.name;
+      break;
+    default:
+      parts.corrector = stage.name;
+  }
+  for (const char* command : {"run", "serve"}) {
+    const auto given = choice.options.find(command);
+    if (is_program(choice) && given != choice.options.end()) parts.program = to_text(given->second);
+  }
+}
+
 }  // namespace
 
 std::vector<DatasetChoice> read_datasets(const YamlNode& entry,
@@ -211,6 +230,7 @@ std::vector<MethodChoice> method_choices(const ConfigEntry& entry, const Catalog
       const methods::MethodEntry& stage = *stages[i];
       const Params options = to_params(by_stage[i]);
       choice.stages.push_back({stage.name, options});
+      add_part(choice.parts, stage, choice.stages.back());
       located(entry, stage.name, by_stage[i], [&] {
         if (is_joint(catalogue, stage, options) && stages.size() > 1 + replays_in_front(stages))
           throw OptionError("output",

@@ -59,7 +59,8 @@ std::vector<Param> range(const YamlNode& node) {
     const double u = steps == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(steps - 1);
     const bool is_end = i > 0 && i + 1 == steps;  // the end is exact
     const double between = is_log ? from * std::pow(to / from, u) : from + u * (to - from);
-    points.push_back(i == 0 ? from : is_end ? to : rounded(between));
+    points.push_back(is_end ? to : rounded(between));
+    if (i == 0) points.back() = from;
   }
   if (!std::ranges::all_of(points, [](double p) { return std::isfinite(p); })) {
     throw node.error("the range from .. to is too wide for double precision");

@@ -96,9 +96,8 @@ std::int64_t as_bytes(const YamlNode& node, const std::string& key) {
 
 void require_map(const YamlNode& node, const std::string& key, const std::string& expected) {
   if (node.type == YamlNode::Type::map) return;
-  const std::string found = node.type == YamlNode::Type::scalar ? "'" + node.text + "'"
-                            : node.type == YamlNode::Type::list ? "a list"
-                                                                : "nothing";
+  std::string found = node.type == YamlNode::Type::list ? "a list" : "nothing";
+  if (node.type == YamlNode::Type::scalar) found = "'" + node.text + "'";
   throw node.error(key + ": found " + found + ", expected " + expected);
 }
 

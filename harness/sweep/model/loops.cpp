@@ -97,7 +97,8 @@ std::string closure_name(const Problem& problem, std::size_t closure) {
 }
 
 std::string plain_number(double value) {
-  const int decimals = value < 1.0 ? 3 : value < 10.0 ? 2 : value < 100.0 ? 1 : 0;
+  int decimals = 3;
+  for (const double least : {1.0, 10.0, 100.0}) decimals -= value >= least ? 1 : 0;
   return fmt::format("{:.{}f}", value, decimals);
 }
 

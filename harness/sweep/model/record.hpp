@@ -9,6 +9,8 @@
 #include <tuple>
 #include <vector>
 
+#include "harness/sweep/model/method_parts.hpp"
+#include "harness/sweep/model/note.hpp"
 #include "harness/sweep/model/shared.hpp"
 #include "harness/sweep/model/shared_text.hpp"
 #include "harness/sweep/model/status.hpp"
@@ -18,20 +20,23 @@
 
 namespace loopbench::harness {
 
-/// In `CellRow::worker`: the times are statements of a program.
-inline constexpr const char* kStatedTimes = ", times as stated";
+/// What is measured in the process of a cell. A new fact is a member and a line of
+/// measured_fields(), which drive its way to the store and out of it.
+struct MeasuredFacts {
+  std::optional<double> waiting;             ///< share of the wall time without a processor, 0..1
+  std::optional<std::int64_t> peak_memory;   ///< of the process [bytes]
+  std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
+};
 
-/// Begins the note of a cell of which several runs gave different trajectories.
-inline constexpr std::string_view kNondeterministic = "nondeterministic: ";
-
-/// What is known about a cell, apart from its scores.
-struct CellRow {
+/// What is known about a cell, apart from its scores; fields() lists its columns.
+struct CellRow : MeasuredFacts {
   std::int64_t position = 0;  ///< in the sweep
   std::string key;            ///< content key: equal keys mean equal results
   SharedText build;
   SharedText sequence;
   std::int64_t repeat = 0;
-  SharedText method;
+  SharedText method;  ///< label, which means nothing but itself
+  MethodParts parts;
   SharedText dataset_options;
   SharedText method_options;
   SharedText all_method_options;  ///< with the defaults, of a cell that was read from a store
@@ -42,30 +47,28 @@ struct CellRow {
   SharedText content;   ///< hash of problem and reference, equal for equal inputs; can be empty
   std::int64_t keyframes = 0;      ///< of the sequence; 0: it could not be loaded
   std::int64_t closure_count = 0;  ///< of the sequence
-  SharedText worker;      ///< "isolated" or "in process", with ", serial" and ", pinned" if so, and
-                          ///< kStatedTimes
-  std::int64_t runs = 0;  ///< that were timed
-  double seconds = 0.0;   ///< time of the method: median, then minimum and maximum
+  SharedText worker;          ///< "isolated" or "in process", with ", serial" and ", pinned" if so
+  bool serial = false;        ///< no other cell of the sweep ran at the same time
+  bool stated_times = false;  ///< the times are statements of a program
+  std::int64_t runs = 0;      ///< that were timed
+  double seconds = 0.0;       ///< time of the method: median, then minimum and maximum
   double seconds_min = 0.0;
   double seconds_max = 0.0;
   std::optional<double> cpu_seconds;  ///< median
   std::optional<double> cpu_seconds_min;
-  std::optional<double> cpu_variation;       ///< standard deviation by mean; none of a single run
-  std::optional<double> waiting;             ///< share of the wall time without a processor, 0..1
-  std::optional<std::int64_t> peak_memory;   ///< of the process [bytes]
-  std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
+  std::optional<double> cpu_variation;  ///< standard deviation by mean; none of a single run
   Status status = Status::ok;
   SharedText signal;
   SharedText why;
   std::vector<methods::Phase> phases;
   std::vector<methods::Count> counts;
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
 
   /// Median time of the method; NaN: not recorded.
   double milliseconds() const;
 
   /// Whether that time is the statement of a program.
-  bool is_stated() const { return worker.text().ends_with(kStatedTimes); }
+  bool is_stated() const { return stated_times; }
 
   /// "room" or "room (repeat 2)".
   std::string run_name() const;

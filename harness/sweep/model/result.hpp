@@ -55,7 +55,7 @@ struct Worker {
   bool stated = false;    ///< the times are statements of a program
 };
 
-struct CellResult {
+struct CellResult : MeasuredFacts {
   Cell cell;
   Status status = Status::ok;
   std::string why;
@@ -63,10 +63,8 @@ struct CellResult {
   Worker worker;
   std::vector<double> seconds;      ///< wall time of the method, one value per timed run
   std::vector<double> cpu_seconds;  ///< CPU time of the process in these runs; empty: unknown
-  std::optional<double> waiting;    ///< share of the wall time without a processor; empty: unknown
-  std::optional<std::int64_t> peak_memory;   ///< largest resident size of the process [bytes]
-  std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
-  methods::Report report;                    ///< of the last timed run
+  methods::Report report;           ///< of the last timed run
+  std::vector<Note> notes;          ///< of its runs and their evaluation
   std::vector<ScoreResult> scores;
   bool oracle_method = false;  ///< it uses the reference, or was trained on it
   CellTrace trace;             ///< under the first protocol, dense if the sweep evaluates densely

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/sweep/model/note.hpp"
 #include "harness/sweep/model/trace.hpp"
 
 namespace loopbench::harness {
@@ -31,11 +32,11 @@ struct SequenceMetadata {
   std::string closures;          ///< source of the loop closures
   bool oracle_closures = false;  ///< the closures were measured or selected with the reference
   SequenceSize size;
-  std::string content;  ///< hash of problem and reference: equal content is one observation
-  std::string source;   ///< recording or noise, see source_of()
-  std::string group;    ///< runs of one group are not independent: the source, or `group:NAME`
-  std::vector<std::string> notes;  ///< notes from loading, for the user
-  SequenceTrace trace;             ///< empty if the sweep keeps no traces
+  std::string content;      ///< hash of problem and reference: equal content is one observation
+  std::string source;       ///< recording or noise, see source_of()
+  std::string group;        ///< runs of one group are not independent: the source, or `group:NAME`
+  std::vector<Note> notes;  ///< what loading and the checks of its poses found
+  SequenceTrace trace;      ///< empty if the sweep keeps no traces
 };
 
 }  // namespace loopbench::harness

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/core/params.hpp"
+#include "harness/sweep/model/method_parts.hpp"
 #include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {
@@ -28,6 +29,7 @@ struct DatasetChoice {
 struct MethodChoice {
   std::string label;
   std::vector<Choice> stages;  ///< one method; or corrector, smoother, or both in that order
+  MethodParts parts = {};
 };
 
 struct MetricChoice {

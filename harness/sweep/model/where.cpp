@@ -85,6 +85,8 @@ std::vector<std::string> split_list(const std::string& text) {
   return out;
 }
 
+std::vector<std::string> split_rules(const std::string& rule) { return split(rule); }
+
 std::function<bool(const Record&)> where(const std::vector<std::string>& rules) {
   std::vector<Condition> conditions;
   for (const std::string& rule : rules) {

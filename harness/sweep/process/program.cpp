@@ -160,7 +160,8 @@ ProgramEnd RunningProgram::wait(std::string& output,
     }
     if (tick) tick(output);
     constexpr int kBetweenSamples = 10, kBetweenTicks = 200;  // [ms]
-    const int longest = is_sandboxed_ ? kBetweenSamples : tick ? kBetweenTicks : -1;
+    const int unsandboxed = tick ? kBetweenTicks : -1;
+    const int longest = is_sandboxed_ ? kBetweenSamples : unsandboxed;
     if (poll(files.data(), files.size(), longest) < 0) continue;
     if (files[1].revents != 0) is_open = read_available(output_, output);
     if (files[2].revents != 0) read_available(errors_, output);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "datasets/core/polyline.hpp"
+#include "harness/sweep/model/note_text.hpp"
 #include "metrics/checks/association_error.hpp"
 #include "metrics/doctor/diagnose.hpp"
 #include "metrics/doctor/graph_checks.hpp"
@@ -35,61 +36,78 @@ int fitted_parameters(const metrics::Evaluation& evaluation) {
   return 0;
 }
 
-std::string few_pairs(const metrics::Evaluation& evaluation) {
+std::optional<Note> few_pairs(const metrics::Evaluation& evaluation) {
   constexpr double kMost = 0.1;  // parameters per coordinate; errors are then 5 % too small
   const std::size_t coordinates = (evaluation.planar ? 2 : 3) * evaluation.coverage.pairs;
   const int parameters = fitted_parameters(evaluation);
   const double share = parameters / static_cast<double>(coordinates);
-  if (share <= kMost) return "";
+  if (share <= kMost) return std::nullopt;
   const double bias = share < 1.0 ? 1.0 - std::sqrt(1.0 - share) : 1.0;
-  return fmt::format(
-      "few pairs: {} pairs have {} coordinates, and alignment {} fits {} parameters to them, so "
-      "the errors are about {:.0f} % too small",
-      evaluation.coverage.pairs,
-      coordinates,
-      to_text(evaluation.alignment.type),
-      parameters,
-      100.0 * bias);
+  return Note{.kind = NoteKind::few_pairs,
+              .severity = Severity::caution,
+              .numbers = {{"bias", 100.0 * bias, "%"},
+                          {"pairs", static_cast<double>(evaluation.coverage.pairs)},
+                          {"coordinates", static_cast<double>(coordinates)},
+                          {"parameters", static_cast<double>(parameters)}},
+              .detail = to_text(evaluation.alignment.type)};
 }
 
-std::string stamp_differences(const Trajectory& reference, const metrics::Evaluation& evaluation) {
+std::optional<Note> stamp_differences(const Trajectory& reference,
+                                      const metrics::Evaluation& evaluation) {
   constexpr double kNegligible = 0.2;  // of the ATE; independent errors then add 2 %
   constexpr double kRounding = 1e-6;   // [s]
   const auto found = metrics::association_error(reference, evaluation);
-  if (!found) return "";
+  if (!found) return std::nullopt;
   const Trajectory* const estimate = evaluation.context.estimate;
   const bool is_sparse = estimate != nullptr && reference.size() < estimate->size();
   const double error = metrics::ate(evaluation, {}).front().statistics.rmse;
-  if (found->largest_difference < kRounding || found->metres <= kNegligible * error) return "";
-  return fmt::format(
-      "association: the stamps of paired poses differ by up to {:.3g} s; at the reference's speed "
-      "this is an error of {:.3g} m (rmse), with an ATE of {:.3g} m; use association {}",
-      found->largest_difference,
-      found->metres,
-      error,
-      is_sparse ? "interpolate_estimate" : "interpolate");
+  if (found->largest_difference < kRounding || found->metres <= kNegligible * error) {
+    return std::nullopt;
+  }
+  return Note{.kind = NoteKind::association,
+              .severity = Severity::caution,
+              .numbers = {{"error", found->metres, "m"},
+                          {"largest difference", found->largest_difference, "s"},
+                          {"ate", error, "m"}},
+              .remedy = {"association", is_sparse ? "interpolate_estimate" : "interpolate"}};
 }
 
-std::string bridged(const metrics::Evaluation& evaluation) {
-  if (evaluation.coverage.bridged == 0.0) return "";
+std::optional<Note> bridged(const metrics::Evaluation& evaluation) {
+  if (evaluation.coverage.bridged == 0.0) return std::nullopt;
   const bool is_evaluated = evaluation.protocol.max_estimate_gap == 0.0;
-  return fmt::format(
-      "tracking gaps: {:.3g} s between keyframes are bridged without a measurement, "
-      "and {} (max_estimate_gap)",
-      evaluation.coverage.bridged,
-      is_evaluated ? "evaluated nevertheless" : "not evaluated");
+  return Note{.kind = NoteKind::tracking_gaps,
+              .severity = Severity::caution,
+              .numbers = {{"bridged", evaluation.coverage.bridged, "s"},
+                          {"evaluated", is_evaluated ? 1.0 : 0.0}}};
 }
 
-void note_once(std::vector<std::string>& list, const std::string& text) {
-  if (!text.empty() && std::ranges::count(list, text) == 0) list.push_back(text);
+void note_once(std::vector<Note>& list, const std::optional<Note>& note) {
+  if (note && std::ranges::count(list, *note) == 0) list.push_back(*note);
+}
+
+/// The unit of the value of a finding.
+std::string unit_of(metrics::Fault::Name fault) {
+  return fault == metrics::Fault::time_offset ? "s" : "";
+}
+
+Remedy remedy_of(const metrics::InputFinding& finding) {
+  const bool is_offset = finding.fault == metrics::Fault::time_offset;
+  return is_offset ? Remedy{"--offset", fmt::format("{:.4f}", finding.value)} : Remedy{finding.fix};
 }
 
 /// Notes of findings with a confidence of at least 0.5; `loopbench doctor` itself prints all.
-std::vector<std::string> notes_of(const std::vector<metrics::InputFinding>& findings) {
+std::vector<Note> notes_of(const std::vector<metrics::InputFinding>& findings) {
   constexpr double kSure = 0.5;
-  std::vector<std::string> out;
+  std::vector<Note> out;
   for (const metrics::InputFinding& finding : findings) {
-    if (finding.confidence >= kSure) out.push_back("doctor: " + text(finding));
+    if (finding.confidence < kSure) continue;
+    out.push_back({.kind = from_text<NoteKind>(std::string(finding.fault)).value(),
+                   .severity = Severity::decisive,
+                   .numbers = {{"value", finding.value, unit_of(finding.fault)},
+                               {"confidence", finding.confidence}},
+                   .remedy = remedy_of(finding),
+                   .detail = finding.evidence});
+    if (finding.has_frame_numbers) out.back().numbers.push_back({"frame numbers", 1.0});
   }
   return out;
 }
@@ -119,7 +137,6 @@ std::vector<metrics::InputFinding> findings_of(
     if (finding.fault == metrics::Fault::time_offset) {
       // The option replaces the offset that is already applied.
       finding.value += offset;
-      finding.fix = fmt::format("--offset {:.4f}", finding.value);
     }
     return finding.fault == metrics::Fault::other_body ||  // the evaluation has a note of its own
            (finding.fault == metrics::Fault::scale && is_aligned);
@@ -132,18 +149,18 @@ bool has_own_stamps(const Trajectory& poses) { return poses.front().stamp != 0.0
 
 }  // namespace
 
-std::vector<std::string> evaluation_notes(const Trajectory& reference,
-                                          const metrics::Evaluation& evaluation) {
-  std::vector<std::string> out;
+std::vector<Note> evaluation_notes(const Trajectory& reference,
+                                   const metrics::Evaluation& evaluation) {
+  std::vector<Note> out;
   note_once(out, stamp_differences(reference, evaluation));
   note_once(out, few_pairs(evaluation));
   note_once(out, bridged(evaluation));
   return out;
 }
 
-std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep& sweep) {
+std::vector<Note> evaluation_notes(const Sequence& sequence, const Sweep& sweep) {
   constexpr double kLowCoverage = 0.5;
-  std::vector<std::string> out;
+  std::vector<Note> out;
   const Problem& problem = sequence.problem;
   if (sequence.reference.empty() || problem.keyframes.empty()) return out;
   for (const metrics::NamedProtocol& protocol : sweep.protocols) {
@@ -157,14 +174,14 @@ std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep&
                                                                  metrics::tracked_stamps(problem));
         const metrics::Coverage& covered = evaluation.coverage;
         if (covered.least() < kLowCoverage) {
-          note_once(
-              out,
-              fmt::format("low coverage: {} of {} poses over {:.1f} % of the reference's time",
-                          covered.pairs,
-                          covered.possible,
-                          100.0 * covered.span));
+          note_once(out,
+                    Note{.kind = NoteKind::low_coverage,
+                         .severity = Severity::decisive,
+                         .numbers = {{"span", 100.0 * covered.span, "%"},
+                                     {"pairs", static_cast<double>(covered.pairs)},
+                                     {"possible", static_cast<double>(covered.possible)}}});
         }
-        for (const std::string& note : evaluation_notes(sequence.reference, evaluation)) {
+        for (const Note& note : evaluation_notes(sequence.reference, evaluation)) {
           note_once(out, note);
         }
       } catch (const std::runtime_error&) {
@@ -175,33 +192,30 @@ std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep&
   return out;
 }
 
-std::vector<std::string> doctor_notes(const ReadPair& pair,
-                                      const std::vector<metrics::NamedProtocol>& protocols) {
+std::vector<Note> doctor_notes(const ReadPair& pair,
+                               const std::vector<metrics::NamedProtocol>& protocols) {
   return notes_of(findings_of(pair, protocols));
 }
 
-std::vector<std::string> doctor_notes(const Sequence& sequence, const Sweep& sweep) {
+std::vector<Note> doctor_notes(const Sequence& sequence, const Sweep& sweep) {
   const Provenance& source = sequence.provenance;
   const Problem& problem = sequence.problem;
   if (source.inputs.empty() || !source.noise.empty() || problem.keyframes.empty()) return {};
-  std::vector<metrics::InputFinding> found = metrics::check_closures(problem);
-  if (!sequence.reference.empty()) {
-    const bool has_stamps = has_own_stamps(sequence.reference) && has_own_stamps(problem.keyframes);
-    const ReadPair pair{
-        sequence.reference, problem.keyframes, source.reference.string(), "", has_stamps};
-    for (metrics::InputFinding& finding : findings_of(pair, sweep.protocols)) {
-      if (finding.fault == metrics::Fault::time_offset) {
-        finding.fix = fmt::format("protocol: {{offset: {:.4f}}}", finding.value);
-      } else if (finding.fault == metrics::Fault::scale) {
-        finding.fix = "protocol: {align: sim3}";
-      }
-      found.push_back(std::move(finding));
-    }
+  std::vector<Note> out = notes_of(metrics::check_closures(problem));
+  if (sequence.reference.empty()) return out;
+  const bool has_stamps = has_own_stamps(sequence.reference) && has_own_stamps(problem.keyframes);
+  const ReadPair pair{
+      sequence.reference, problem.keyframes, source.reference.string(), "", has_stamps};
+  for (Note& note : notes_of(findings_of(pair, sweep.protocols))) {
+    if (note.kind == NoteKind::time_offset)
+      note.remedy.option = kInProtocol + std::string("offset");
+    if (note.kind == NoteKind::scale) note.remedy = {kInProtocol + std::string("align"), "sim3"};
+    out.push_back(std::move(note));
   }
-  return notes_of(found);
+  return out;
 }
 
-std::vector<std::string> closure_notes(const Problem& problem) {
+std::vector<Note> closure_notes(const Problem& problem) {
   return notes_of(metrics::check_closures(problem));
 }
 

@@ -5,22 +5,23 @@
 #include <vector>
 
 #include "datasets/core/sequence.hpp"
+#include "harness/sweep/model/note.hpp"
 #include "harness/sweep/model/sweep.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
 
-/// One sentence for each limitation found; `reference` is the complete one:
+/// One note for each limitation found; `reference` is the complete one:
 /// - stamp differences within pairs alone explain a fifth of the ATE or more;
 /// - the alignment has more than a tenth as many parameters as the pairs have coordinates, so the
 ///   fit itself reduces the errors;
 /// - a dense curve bridges tracking gaps.
-std::vector<std::string> evaluation_notes(const Trajectory& reference,
-                                          const metrics::Evaluation& evaluation);
+std::vector<Note> evaluation_notes(const Trajectory& reference,
+                                   const metrics::Evaluation& evaluation);
 
 /// The same for the keyframes of a sequence under every protocol and choice of times of the sweep,
 /// and for a coverage below one half. Without duplicates.
-std::vector<std::string> evaluation_notes(const Sequence& sequence, const Sweep& sweep);
+std::vector<Note> evaluation_notes(const Sequence& sequence, const Sweep& sweep);
 
 /// Two trajectories as they were read.
 struct ReadPair {
@@ -31,17 +32,17 @@ struct ReadPair {
   bool has_stamps = true;  ///< false if the stamps of either are generated
 };
 
-/// "doctor: ..." for each finding with a confidence of at least 0.5 that the protocols leave: the
+/// A note for each finding with a confidence of at least 0.5 that the protocols leave: the
 /// estimate is shifted by the offset of the first one, and its scale is checked only if some
 /// protocol does not align it. Empty without protocols.
-std::vector<std::string> doctor_notes(const ReadPair& pair,
-                                      const std::vector<metrics::NamedProtocol>& protocols);
+std::vector<Note> doctor_notes(const ReadPair& pair,
+                               const std::vector<metrics::NamedProtocol>& protocols);
 
 /// The same for the keyframes of measured data, with options of configs, and for its closures and
 /// information. Empty for simulated data.
-std::vector<std::string> doctor_notes(const Sequence& sequence, const Sweep& sweep);
+std::vector<Note> doctor_notes(const Sequence& sequence, const Sweep& sweep);
 
-/// "doctor: ..." for each finding about closures and information with a confidence of at least 0.5.
-std::vector<std::string> closure_notes(const Problem& problem);
+/// A note for each finding about closures and information with a confidence of at least 0.5.
+std::vector<Note> closure_notes(const Problem& problem);
 
 }  // namespace loopbench::harness

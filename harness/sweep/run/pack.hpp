@@ -9,6 +9,7 @@
 
 #include "datasets/core/pack.hpp"
 #include "datasets/core/sequence.hpp"
+#include "harness/sweep/model/cell_columns.hpp"
 #include "harness/sweep/model/result.hpp"
 #include "harness/sweep/model/sweep.hpp"
 
@@ -45,6 +46,17 @@ void walk(Archive& a, T& file) {
   a(file.option)(file.path)(file.bytes)(file.hash);
 }
 
+template <class Archive, Either<harness::Quantity> T>
+void walk(Archive& a, T& number) {
+  a(number.name)(number.value)(number.unit);
+}
+
+template <class Archive, Either<harness::Note> T>
+void walk(Archive& a, T& note) {
+  a(note.kind)(note.severity)(note.subject)(note.numbers);
+  a(note.remedy.option)(note.remedy.value)(note.detail);
+}
+
 template <class Archive, Either<harness::SequenceMetadata> T>
 void walk(Archive& a, T& metadata) {
   a(metadata.inputs)(metadata.closures)(metadata.oracle_closures)(metadata.size)(metadata.notes);
@@ -67,8 +79,8 @@ void walk(Archive& a, T& values) {
 template <class Archive, Either<harness::CellResult> T>
 void walk(Archive& a, T& r) {
   a(r.cell)(r.status)(r.why)(r.signal)(r.worker)(r.oracle_method)(r.seconds)(r.cpu_seconds);
-  a(r.waiting)(r.peak_memory)(r.added_memory);
-  a(r.report.phases)(r.report.counts)(r.report.notes)(r.report.sections);
+  harness::measured_fields(r, [&](const harness::CellColumn&, auto& fact) { a(fact); });
+  a(r.report.phases)(r.report.counts)(r.report.notes)(r.report.sections)(r.notes);
   a(r.scores)(r.trace.times)(r.trace.samples)(r.trace.values);
 }
 
@@ -147,6 +159,10 @@ inline bool is_valid(const harness::CellResult& result, const harness::Sweep& sw
     return std::ranges::any_of(choices(value), [&](const auto& c) { return c.second == value; });
   };
   return is_choice(result.status) && is_choice(result.trace.times) &&
+         std::ranges::all_of(result.notes,
+                             [&](const harness::Note& note) {
+                               return is_choice(note.kind) && is_choice(note.severity);
+                             }) &&
          std::ranges::all_of(result.scores, [&](const harness::ScoreResult& score) {
            return score.protocol < sweep.protocols.size() && is_choice(score.times) &&
                   is_choice(score.status) && is_choice(score.score.better) &&

@@ -93,7 +93,9 @@ void evaluate_curve(CellResult& result,
     if (!result.oracle_method && has_moved &&
         has_equal_positions(evaluation.estimate, evaluation.reference)) {
       result.oracle_method = true;
-      result.report.notes.emplace_back("oracle (equals the reference)");
+      result.notes.push_back({.kind = NoteKind::oracle,
+                              .severity = Severity::decisive,
+                              .detail = "the result equals the reference"});
     }
     add_scores(result, row, evaluation, sweep, catalogue);
     const bool densest = row.times == metrics::Times::dense ||

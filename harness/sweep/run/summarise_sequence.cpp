@@ -126,8 +126,11 @@ void limit_texts(SequenceMetadata& metadata) {
   metadata.closures = limited(metadata.closures, kLongestNote);
   const std::size_t omitted = metadata.notes.size() - std::min(metadata.notes.size(), kMostItems);
   metadata.notes.resize(metadata.notes.size() - omitted);
-  for (std::string& note : metadata.notes) note = limited(note, kLongestNote);
-  if (omitted > 0) metadata.notes.push_back(std::to_string(omitted) + " more notes");
+  for (Note& note : metadata.notes) note.detail = limited(note.detail, kLongestNote);
+  if (omitted > 0) {
+    metadata.notes.push_back(
+        {.kind = NoteKind::omitted, .numbers = {{"notes", static_cast<double>(omitted)}}});
+  }
 }
 
 }  // namespace
@@ -196,16 +199,18 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
   out.content = content_of(sequence);
   out.source = source_of(sequence);
   out.group = out.source;
-  out.notes = sequence.provenance.notes;
+  for (const std::string& note : sequence.provenance.notes) out.notes.push_back({.detail = note});
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
-    out.notes.push_back(to_text(
-        metrics::evaluate_detection(problem, sequence.reference, sequence.loop_candidates, {})));
+    out.notes.push_back({.kind = NoteKind::detection,
+                         .detail = to_text(metrics::evaluate_detection(
+                             problem, sequence.reference, sequence.loop_candidates, {}))});
   }
-  if (const std::string note = equal_reference(sequence); !note.empty()) {
-    out.notes.push_back("oracle: " + note);
+  if (const std::string which = equal_reference(sequence); !which.empty()) {
+    out.notes.push_back(
+        {.kind = NoteKind::oracle, .severity = Severity::decisive, .detail = which});
   }
-  if (const std::string note = reference_of_other_body(sequence); !note.empty()) {
-    out.notes.push_back(note);
+  if (const std::string which = reference_of_other_body(sequence); !which.empty()) {
+    out.notes.push_back({.kind = NoteKind::body, .severity = Severity::caution, .detail = which});
   }
   if (with_trace) out.trace = sequence_trace(sequence);
   return out;
@@ -214,8 +219,8 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
 SequenceMetadata metadata_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep) {
   if (const auto own = with_alignment_of(cell.dataset, sweep)) {
     SequenceMetadata out = metadata_of(sequence, cell, *own);
-    out.notes.push_back("aligned by " + to_text(*sweep.datasets[cell.dataset].align) +
-                        " under every protocol");
+    out.notes.push_back(
+        {.kind = NoteKind::alignment, .detail = to_text(*sweep.datasets[cell.dataset].align)});
     return out;
   }
   SequenceMetadata out = sequence_metadata(sequence, sweep.traces);

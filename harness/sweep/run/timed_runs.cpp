@@ -147,11 +147,11 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   result.worker.stated = phase_seconds(last.report, kWallPhase).has_value();
   result.report = std::move(last.report);
   if (results.size() > 1) {
-    result.report.notes.push_back(
-        fmt::format("{}{} runs on the same input gave {} different trajectories",
-                    kNondeterministic,
-                    result.seconds.size() + warm_runs,
-                    results.size()));
+    result.notes.push_back(
+        {.kind = NoteKind::nondeterministic,
+         .severity = Severity::caution,
+         .numbers = {{"runs", static_cast<double>(result.seconds.size() + warm_runs)},
+                     {"trajectories", static_cast<double>(results.size())}}});
   }
   return std::move(last.curve);
 }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "harness/sweep/model/cell_columns.hpp"
+#include "harness/sweep/model/note_text.hpp"
+#include "harness/sweep/store/note_rows.hpp"
 #include "harness/sweep/store/stored_cells.hpp"
 #include "harness/sweep/store/traces.hpp"
 #include "metrics/numerics/median.hpp"
@@ -21,8 +24,28 @@ std::string option_text(const std::vector<Choice>& stages) {
 
 std::string text_of(const Worker& worker) {
   return std::string(worker.isolated ? "isolated" : "in process") +
-         (worker.serial ? ", serial" : "") + (worker.pinned ? ", pinned" : "") +
-         (worker.stated ? kStatedTimes : "");
+         (worker.serial ? ", serial" : "") + (worker.pinned ? ", pinned" : "");
+}
+
+void set_times(CellRow& row, const CellResult& result) {
+  row.runs = std::ssize(result.seconds);
+  if (!result.seconds.empty()) {
+    row.seconds = metrics::median(result.seconds);
+    row.seconds_min = std::ranges::min(result.seconds);
+    row.seconds_max = std::ranges::max(result.seconds);
+  }
+  if (!result.cpu_seconds.empty()) {
+    row.cpu_seconds = metrics::median(result.cpu_seconds);
+    row.cpu_seconds_min = std::ranges::min(result.cpu_seconds);
+  }
+  row.cpu_variation = variation(result.cpu_seconds);
+}
+
+void bind_field(Statement& row, Status value) { row.bind(to_text(value)); }
+void bind_field(Statement& row, const SharedText& value) { row.bind(value.text()); }
+template <class Value>
+void bind_field(Statement& row, const Value& value) {
+  row.bind(value);
 }
 
 /// Inserts all columns of the table.
@@ -75,7 +98,7 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
   if (result.metadata) write_metadata(result.cell, keys, *result.metadata);
   const std::int64_t id = write_cell(result, keys);
   write_scores(id, result, keys.sweep());
-  write_report(id, result.report);
+  write_report(id, result);
   write_trace(id, result.trace);
   set_hashes(database_, id);
 }
@@ -89,17 +112,26 @@ void CellWriter::write_trace(std::int64_t id, const CellTrace& trace) {
   }
 }
 
-void CellWriter::write_report(std::int64_t id, const methods::Report& report) {
+void CellWriter::write_report(std::int64_t id, const CellResult& result) {
+  const methods::Report& report = result.report;
   std::int64_t number = 0;
   for (const auto& [name, seconds] : report.phases) phase_.bind(id, number++, name, seconds).run();
   number = 0;
   for (const auto& [name, value] : report.counts) count_.bind(id, number++, name, value).run();
   number = 0;
-  for (const std::string& text : report.notes) note_.bind(id, number++, text).run();
+  for (const std::string& words : report.notes) {
+    write_note(id, number++, {.kind = NoteKind::method, .detail = words});
+  }
+  for (const Note& note : result.notes) write_note(id, number++, note);
   number = 0;
   for (const methods::Section& s : report.sections) {
     section_.bind(id, number++, s.kind, s.begin, s.end, s.what).run();
   }
+}
+
+void CellWriter::write_note(std::int64_t id, std::int64_t number, const Note& note) {
+  bind_note(
+      note, text(note), [&](const auto&... values) { note_.bind(id, number, values...).run(); });
 }
 
 std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
@@ -108,24 +140,27 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   const MethodChoice& method = keys.sweep().methods[cell.method];
   const SequenceMetadata none;
   const SequenceMetadata& metadata = result.metadata ? *result.metadata : none;
-  const auto [low, high] = std::ranges::minmax_element(result.seconds);
-  const bool timed = !result.seconds.empty();
-  std::optional<double> cpu, least_cpu;
-  if (!result.cpu_seconds.empty()) {
-    cpu = metrics::median(result.cpu_seconds);
-    least_cpu = std::ranges::min(result.cpu_seconds);
-  }
+  CellRow row;
+  static_cast<MeasuredFacts&>(row) = result;
+  row.sequence = dataset.label;
+  row.repeat = cell.repeat;
+  row.method = method.label;
+  row.parts = method.parts;
+  row.dataset_options = option_text({dataset.dataset});
+  row.method_options = option_text(method.stages);
+  row.closures = metadata.closures;
+  row.oracle_closures = metadata.oracle_closures;
+  row.oracle = result.oracle_method;
+  row.worker = text_of(result.worker);
+  row.serial = result.worker.serial;
+  row.stated_times = result.worker.stated;
+  set_times(row, result);
+  row.status = result.status;
+  row.signal = result.signal;
+  row.why = result.why;
   cell_.bind(nullptr, cell.index, keys.key(cell, metadata.inputs), keys.build());
   cell_.bind(keys.sequence_key(cell, metadata.inputs), provenance_key_);
-  cell_.bind(dataset.label, cell.repeat, method.label);
-  cell_.bind(option_text({dataset.dataset}), option_text(method.stages));
-  cell_.bind(metadata.closures, metadata.oracle_closures, result.oracle_method);
-  cell_.bind(text_of(result.worker), result.seconds.size());
-  cell_.bind(
-      timed ? metrics::median(result.seconds) : 0.0, timed ? *low : 0.0, timed ? *high : 0.0);
-  cell_.bind(cpu, least_cpu, variation(result.cpu_seconds), result.waiting);
-  cell_.bind(result.peak_memory, result.added_memory);
-  cell_.bind(to_text(result.status), result.signal, result.why);
+  fields(row, [&](const CellColumn&, const auto& value) { bind_field(cell_, value); });
   cell_.bind(std::ranges::count_if(result.scores, is_failure, &ScoreResult::status));
   cell_.bind(result.scores.size(), 0, 0).run();  // see set_hashes()
   return database_.last_row();
@@ -171,6 +206,14 @@ void CellWriter::write_metadata(const Cell& cell,
   std::int64_t number = 0;
   for (const InputFile& file : metadata.inputs) {
     input.bind_hashed(sequence_key, number++, file.option, file.path, file.bytes, file.hash).run();
+  }
+  database_.prepare("DELETE FROM sequence_note WHERE sequence_key = ?").bind(sequence_key).run();
+  Statement note = insert_into(database_, "sequence_note");
+  number = 0;
+  for (const Note& each : metadata.notes) {
+    bind_note(each, text(each), [&](const auto&... values) {
+      note.bind_hashed(sequence_key, number++, values...).run();
+    });
   }
   const SequenceSize& size = metadata.size;
   insert_into(database_, "sequence", "INSERT OR REPLACE")

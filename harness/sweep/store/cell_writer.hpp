@@ -27,7 +27,8 @@ class CellWriter {
   void write_rows(const CellResult& result, CellKeys& keys);
   std::int64_t write_cell(const CellResult& result, CellKeys& keys);
   void write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep);
-  void write_report(std::int64_t id, const methods::Report& report);
+  void write_report(std::int64_t id, const CellResult& result);
+  void write_note(std::int64_t id, std::int64_t number, const Note& note);
   void write_trace(std::int64_t id, const CellTrace& trace);
   std::int64_t definition_of(const ScoreKind& kind);
   void write_metadata(const Cell& cell, CellKeys& keys, const SequenceMetadata& metadata);

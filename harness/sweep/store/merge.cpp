@@ -189,7 +189,7 @@ class Merge {
         std::to_string(database_.integer("SELECT coalesce(max(id), 0) FROM main.cell")) + " + ";
     std::string columns = kCellColumns;  // with the new position
     columns.replace(columns.find("position"), 8, "place");
-    for (const char* table : {"input", "sequence_trace", "sequence"}) {
+    for (const char* table : {"input", "sequence_trace", "sequence_note", "sequence"}) {
       const std::string name = table;
       database_.execute("INSERT OR IGNORE INTO main." + name + " SELECT * FROM source." + name +
                         " WHERE sequence_key IN (SELECT sequence_key FROM source.cell WHERE "

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "harness/sweep/model/evaluated_run.hpp"
+#include "harness/sweep/store/note_rows.hpp"
 #include "harness/sweep/store/open.hpp"
 #include "harness/sweep/store/schema.hpp"
 #include "harness/sweep/store/stored_cells.hpp"
@@ -73,14 +75,67 @@ std::vector<CellRow> read_cells(const std::filesystem::path& file) {
     auto& [name, value] = cell.counts.emplace_back();
     row.read(name, value);
   });
-  add("note", [](CellRow& cell, Statement& row) { row.read(cell.notes.emplace_back()); });
+  add("note", [&](CellRow& cell, Statement& row) {
+    row.text();  // made of the next columns
+    cell.notes.push_back(read_note(database, row));
+  });
   return {std::move_iterator(cells.begin()), std::move_iterator(cells.end())};
+}
+
+StoredNotes read_notes(const std::filesystem::path& file) {
+  Database database = open_store(file);
+  StoredNotes out;
+  const auto add = [&](const std::string& query) {
+    Statement row = database.prepare(query);
+    while (row.step()) {
+      RunNote& one = out.notes.emplace_back();
+      row.read(one.sequence, one.repeat, one.method);
+      one.note = read_note(database, row);
+    }
+  };
+  Statement config = database.prepare("SELECT value FROM run WHERE key = 'config'");
+  const bool is_of_file = config.step() && is_of_files(config.text());
+  const std::string columns = std::string(kNoteColumns);
+  add("SELECT sequence, repeat, name, " + columns +
+      " FROM (SELECT DISTINCT sequence_key, sequence, repeat, " + (is_of_file ? "method" : "''") +
+      " AS name, min(position) AS first FROM cell WHERE position IS NOT NULL GROUP BY 1, 2, 3, 4) "
+      "JOIN sequence_note USING (sequence_key) ORDER BY first, number");
+  add("SELECT sequence, repeat, method, " + columns +
+      " FROM note JOIN cell ON cell.id = note.cell WHERE position IS NOT NULL AND severity <> "
+      "'info' ORDER BY position, number");
+  if (out.notes.empty()) return out;
+  const std::string of_runs =
+      "FROM (SELECT DISTINCT sequence, repeat FROM cell WHERE position IS NOT NULL)";
+  out.runs = static_cast<std::size_t>(database.integer("SELECT count(*) " + of_runs));
+  out.sequences =
+      static_cast<std::size_t>(database.integer("SELECT count(DISTINCT sequence) " + of_runs));
+  Statement row = database.prepare(
+      "SELECT method, count(*) FROM cell WHERE position IS NOT NULL GROUP BY method");
+  while (row.step()) {
+    std::string method;
+    std::size_t count = 0;
+    row.read(method, count);
+    out.runs_of_method.emplace(method, count);
+  }
+  return out;
 }
 
 std::map<std::string, std::string> read_run(const std::filesystem::path& file) {
   Database database = open_store(file);
   const auto all = text_pairs(database, "SELECT key, value FROM run");
   return {all.begin(), all.end()};
+}
+
+std::vector<std::pair<std::string, std::string>> alignments(
+    const std::map<std::string, std::string>& run) {
+  std::vector<std::pair<std::string, std::string>> out;
+  const auto value = run.find("alignment");
+  std::istringstream lines(value == run.end() ? "" : value->second);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t tab = std::min(line.rfind('\t'), line.size());
+    out.emplace_back(line.substr(0, tab), line.substr(std::min(tab + 1, line.size())));
+  }
+  return out;
 }
 
 std::map<std::string, std::string> read_provenance(const std::filesystem::path& file) {

@@ -25,8 +25,34 @@ std::vector<Record> read_records(const std::filesystem::path& file);
 /// One row per cell, in sweep order.
 std::vector<CellRow> read_cells(const std::filesystem::path& file);
 
+/// A note and whom it is about.
+struct RunNote {
+  std::string sequence;
+  std::int64_t repeat = 0;
+  std::string method;  ///< empty: the run, with all its methods
+  Note note;
+};
+
+/// What is known about the runs of a store besides their scores.
+struct StoredNotes {
+  /// Of the runs, in sweep order, then those of single cells that change a conclusion or limit it.
+  std::vector<RunNote> notes;
+  // Counted only if there are notes.
+  std::size_t runs = 0;
+  std::size_t sequences = 0;
+  std::map<std::string, std::size_t> runs_of_method;
+};
+
+/// Remarks of methods are in read_cells() only. In a store of evaluated files, notes of a run are
+/// those of the file of a method. O(cells).
+StoredNotes read_notes(const std::filesystem::path& file);
+
 /// The `run` table: config text, protocol, baseline, version.
 std::map<std::string, std::string> read_run(const std::filesystem::path& file);
+
+/// The alignment of each protocol of the table run, by "LABEL [VERSION]", in order.
+std::vector<std::pair<std::string, std::string>> alignments(
+    const std::map<std::string, std::string>& run);
 
 /// Commit, compiler, machine and so on. Values that differ between cells are separate lines, in
 /// sweep order.

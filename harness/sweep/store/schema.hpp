@@ -1,14 +1,18 @@
 /// Tables of a store.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <string>
 
+#include "harness/sweep/model/cell_columns.hpp"
 #include "metrics/numerics/statistics.hpp"
 
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 17;
+inline constexpr int kSchemaVersion = 18;
 
 /// The columns of statistics but count: "rmse,", with texts before and after each name, in one
 /// line, or percentiles after `gap`.
@@ -25,8 +29,44 @@ inline std::string statistic_columns(const std::string& before,
   return out;
 }
 
+/// The type of a column in SQL.
+inline std::string sql_type(bool) { return "INTEGER NOT NULL"; }
+inline std::string sql_type(std::int64_t) { return "INTEGER NOT NULL"; }
+inline std::string sql_type(double) { return "REAL NOT NULL"; }
+inline std::string sql_type(Status) { return "TEXT NOT NULL"; }
+inline std::string sql_type(const SharedText&) { return "TEXT NOT NULL"; }
+inline std::string sql_type(std::optional<double>) { return "REAL"; }
+inline std::string sql_type(std::optional<std::int64_t>) { return "INTEGER"; }
+
+/// The columns of fields(CellRow&), each with its type and meaning.
+inline std::string cell_column_definitions() {
+  std::string out;
+  CellRow none;
+  fields(none, [&](const CellColumn& column, const auto& value) {
+    std::string line = std::string(column.name) + " " + sql_type(value) + ",";
+    if (column.meaning[0] != '\0') {
+      constexpr std::size_t kMeaning = 35;  // column of the comments
+      line.resize(std::max(kMeaning, line.size() + 1), ' ');
+      line += std::string("-- ") + column.meaning;
+    }
+    out += line + "\n    ";
+  });
+  return out;
+}
+
+/// Their names, separated by commas.
+inline std::string cell_column_names() {
+  std::string out;
+  CellRow none;
+  fields(none, [&](const CellColumn& column, const auto&) {
+    out += (out.empty() ? "cell." : ", cell.") + std::string(column.name);
+  });
+  return out;
+}
+
 /// Creates the tables of a store, readable with any SQLite tool.
-inline const std::string kSchema = R"sql(
+inline const std::string kSchema =
+    R"sql(
   CREATE TABLE run (                   -- config and settings of the last run
     key TEXT PRIMARY KEY,
     value TEXT NOT NULL,
@@ -65,30 +105,9 @@ inline const std::string kSchema = R"sql(
     build TEXT NOT NULL,               -- of the program that computed it
     sequence_key TEXT NOT NULL,        -- key of table sequence
     provenance_key TEXT NOT NULL,      -- key of table provenance
-    sequence TEXT NOT NULL,            -- label of the dataset entry
-    repeat INTEGER NOT NULL,           -- instance of a seeded dataset, from 0
-    method TEXT NOT NULL,              -- label of the method entry
-    dataset_options TEXT NOT NULL,     -- options that differ from the defaults
-    method_options TEXT NOT NULL,
-    closures TEXT NOT NULL,            -- source of the loop closures
-    oracle_closures INTEGER NOT NULL,  -- 1: measured in or selected by the reference
-    oracle INTEGER NOT NULL,           -- 1: the method uses or was trained on the reference
-    worker TEXT NOT NULL,              -- isolated | in process, with ", serial", ", pinned"
-    runs INTEGER NOT NULL,             -- timed runs of the method
-    seconds_median REAL NOT NULL,      -- wall time of one run
-    seconds_min REAL NOT NULL,
-    seconds_max REAL NOT NULL,
-    cpu_seconds_median REAL,           -- CPU time of the process; NULL: unknown
-    cpu_seconds_min REAL,
-    cpu_variation REAL,                -- standard deviation by mean of the runs; NULL: one run
-    waiting REAL,                      -- share of their wall time without a processor, 0..1
-    peak_memory INTEGER,               -- largest resident size of the process [bytes]
-    added_memory INTEGER,              -- increase of the resident size [bytes]
-    status TEXT NOT NULL,              -- ok | declined | incomplete; failed | crashed | timeout |
-                                       -- out_of_memory
-    signal TEXT NOT NULL,              -- for example SIGSEGV; empty: not ended by a signal
-    why TEXT NOT NULL,
-    failed_scores INTEGER NOT NULL,    -- number of failed scores
+    )sql" +
+    cell_column_definitions() +
+    R"sql(failed_scores INTEGER NOT NULL,    -- number of failed scores
     scores INTEGER NOT NULL,           -- number of its rows in score_value
     trace_hash INTEGER NOT NULL,       -- of its rows in trace, snapshot and pose_value
     hash INTEGER NOT NULL);            -- of this row, its sequence, and its rows in score_value,
@@ -110,8 +129,9 @@ inline const std::string kSchema = R"sql(
     number INTEGER NOT NULL,           -- of the score in its cell, from 0
     definition INTEGER NOT NULL REFERENCES score_definition(id),
     count INTEGER,                     -- these eight are NULL if the status is not ok or incomplete
-    )sql" + statistic_columns("", " REAL,", "\n    ") +
-                                   R"sql(
+    )sql" +
+    statistic_columns("", " REAL,", "\n    ") +
+    R"sql(
     pairs INTEGER NOT NULL,            -- evaluated pose pairs
     possible INTEGER NOT NULL,         -- possible pose pairs
     span REAL NOT NULL,                -- evaluated share of the reference's time, 0..1
@@ -121,8 +141,8 @@ inline const std::string kSchema = R"sql(
   CREATE VIEW score AS
     SELECT v.cell, d.protocol, d.protocol_version, d.times, d.metric, d.label, d.relation, d.axis,
       d.unit, d.better, d.target, v.count, )sql" +
-                                   statistic_columns("v.", ",", "\n      ") +
-                                   R"sql( v.pairs, v.possible, v.span, v.status, v.why, v.number
+    statistic_columns("v.", ",", "\n      ") +
+    R"sql( v.pairs, v.possible, v.span, v.status, v.why, v.number
     FROM score_value v JOIN score_definition d ON d.id = v.definition;
   CREATE TABLE phase (                 -- reported by the method, as are the next three
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
@@ -132,10 +152,24 @@ inline const std::string kSchema = R"sql(
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
     name TEXT NOT NULL, value REAL NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
-  CREATE TABLE note (
+  CREATE TABLE note (                  -- of the cell, and of its method
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
-    text TEXT NOT NULL,
+    text TEXT NOT NULL,                -- the next columns as a sentence
+    kind TEXT NOT NULL,                -- low_coverage, time_offset, ...: harness/sweep/model/note.hpp
+    severity TEXT NOT NULL,            -- info | caution | decisive (can change a conclusion)
+    subject TEXT NOT NULL,             -- file, closure or edge; '': the run, or the cell
+    numbers TEXT NOT NULL,             -- JSON: [{"name": "bias", "value": 5.1, "unit": "%"}, ...]
+    remedy_option TEXT NOT NULL,       -- an option that removes the cause, or words; '': none
+    remedy_value TEXT NOT NULL,
+    detail TEXT NOT NULL,              -- words of a dataset or method; evidence of a finding
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
+  CREATE TABLE sequence_note (         -- of the input of a sequence
+    sequence_key TEXT NOT NULL, number INTEGER NOT NULL,
+    text TEXT NOT NULL, kind TEXT NOT NULL, severity TEXT NOT NULL, subject TEXT NOT NULL,
+    numbers TEXT NOT NULL, remedy_option TEXT NOT NULL, remedy_value TEXT NOT NULL,
+    detail TEXT NOT NULL,
+    row_hash INTEGER NOT NULL,
+    PRIMARY KEY (sequence_key, number)) WITHOUT ROWID;
   CREATE TABLE section (               -- sections of the path
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
     kind TEXT NOT NULL,                -- segment, window, ...
@@ -185,12 +219,9 @@ inline constexpr CellTable kCellTables[] = {{kScoreTable},
                                             {"pose_value", true}};
 
 /// Columns of the table cell between `id` and `hash`.
-inline constexpr const char* kCellColumns =
-    "position, key, build, cell.sequence_key, provenance_key, cell.sequence, repeat, method, "
-    "dataset_options, method_options, cell.closures, oracle_closures, oracle, worker, runs, "
-    "seconds_median, seconds_min, seconds_max, cpu_seconds_median, cpu_seconds_min, cpu_variation, "
-    "waiting, peak_memory, added_memory, "
-    "status, signal, why, failed_scores, scores, trace_hash";
+inline const std::string kCellColumns =
+    "position, key, build, cell.sequence_key, provenance_key, " + cell_column_names() +
+    ", failed_scores, scores, trace_hash";
 
 /// A cell's row and that of its sequence, which `hash` covers.
 inline constexpr const char* kCellsWithSequences = "cell LEFT JOIN sequence USING (sequence_key)";
@@ -206,6 +237,7 @@ struct SharedTable {
 inline constexpr SharedTable kRunTable{"run", "key"};
 inline constexpr SharedTable kProvenanceTable{"provenance", "provenance_key"};
 inline constexpr SharedTable kInputTable{"input", "sequence_key"};
+inline constexpr SharedTable kSequenceNoteTable{"sequence_note", "sequence_key"};
 inline constexpr SharedTable kSequenceTraceTable{"sequence_trace", "sequence_key"};
 
 }  // namespace loopbench::harness

@@ -74,15 +74,17 @@ void reject_links(const std::filesystem::path& file) {
 /// The table run, except for the number of cells.
 std::map<std::string, std::string> run_values(const CellKeys& keys) {
   const Sweep& sweep = keys.sweep();
-  std::string rules;  // in full, one protocol per line
+  std::string rules, alignments;  // one protocol per line: in full; LABEL [VERSION], tab, alignment
   for (const metrics::NamedProtocol& protocol : sweep.protocols) {
-    rules +=
-        protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
+    const std::string name = protocol.label() + " [" + protocol.version + "]";
+    rules += name + ": " + to_text(echo(protocol.rules)) + "\n";
+    alignments += name + "\t" + to_text(protocol.rules.align) + "\n";
   }
   return {{"loopbench", kVersion},
           {"sweep", sweep.name},
           {"config", sweep.text},
           {"protocol", rules},
+          {"alignment", alignments},
           {"metrics", keys.metric_definitions()},
           {"methods", keys.method_definitions()},
           {"baseline", sweep.baseline}};
@@ -114,6 +116,7 @@ std::vector<std::string> remove_damaged(Database& database, std::vector<StoredCe
   std::erase_if(cells, [](const StoredCell& cell) { return !cell.intact; });
   remove_damaged_rows(database, kProvenanceTable);
   remove_damaged_rows(database, kInputTable);
+  remove_damaged_rows(database, kSequenceNoteTable);
   if (!out.empty()) {  // a row whose key has changed would hide others from a search by key
     database.execute(
         "DELETE FROM sequence WHERE sequence_key NOT IN (SELECT sequence_key FROM cell)");

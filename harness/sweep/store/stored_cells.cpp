@@ -21,7 +21,7 @@ bool has_sound_structure(Database& database, const std::vector<std::string>& tab
 }
 
 const std::vector<std::string> kSearched{
-    "(run)", "(provenance)", "(input)", "(sequence)", "(cell)"};
+    "(run)", "(provenance)", "(input)", "(sequence)", "(sequence_note)", "(cell)"};
 
 void require_none_damaged(Database& database, const std::vector<StoredCell>& cells) {
   const auto damaged = std::ranges::count(cells, false, &StoredCell::intact);
@@ -125,6 +125,15 @@ std::uint64_t add_rows(Database& database, std::uint64_t hash, std::int64_t id, 
   return hash;
 }
 
+void read_field(Statement& row, Status& value) {
+  value = from_text<Status>(row.text()).value_or(Status::failed);
+}
+void read_field(Statement& row, bool& value) { value = row.integer() != 0; }
+template <class Value>
+void read_field(Statement& row, Value& value) {
+  row.read(value);
+}
+
 }  // namespace
 
 std::int64_t written_cells(Database& database) {
@@ -134,6 +143,7 @@ std::int64_t written_cells(Database& database) {
 std::vector<StoredCell> read_stored_cells(Database& database) {
   const std::set<std::string> damaged_provenance = damaged_rows(database, kProvenanceTable);
   const std::set<std::string> damaged_inputs = damaged_rows(database, kInputTable);
+  const std::set<std::string> damaged_notes = damaged_rows(database, kSequenceNoteTable);
   std::vector<StoredCell> out;
   std::vector<std::uint64_t> hashes;
   Statement row = database.prepare(
@@ -145,19 +155,14 @@ std::vector<StoredCell> read_stored_cells(Database& database) {
   while (row.step()) {
     hashes.push_back(row.hashed(0, 6));
     std::optional<std::int64_t> position;
-    std::string status;
     row.read(c.id, c.hash, c.keyframes, c.closure_count, c.content, c.group);
-    row.read(position, c.key, c.build, c.sequence_key, provenance_key, c.sequence);
-    row.read(c.repeat, c.method, c.dataset_options, c.method_options, c.closures);
-    row.read(c.oracle_closures, c.oracle, c.worker, c.runs);
-    row.read(c.seconds, c.seconds_min, c.seconds_max, c.cpu_seconds);
-    row.read(c.cpu_seconds_min, c.cpu_variation, c.waiting, c.peak_memory, c.added_memory);
-    row.read(status, c.signal, c.why, c.failed_scores, c.scores, c.trace_hash);
-    c.intact =
-        !damaged_provenance.contains(provenance_key) && !damaged_inputs.contains(c.sequence_key);
+    row.read(position, c.key, c.build, c.sequence_key, provenance_key);
+    fields(c, [&](const CellColumn&, auto& value) { read_field(row, value); });
+    row.read(c.failed_scores, c.scores, c.trace_hash);
+    c.intact = !damaged_provenance.contains(provenance_key) &&
+               !damaged_inputs.contains(c.sequence_key) && !damaged_notes.contains(c.sequence_key);
     c.placed = position.has_value();
     c.position = position.value_or(0);
-    c.status = from_text<Status>(status).value_or(Status::failed);
     out.push_back(c);
   }
   check_rows(database, out, false, hashes);
@@ -255,7 +260,7 @@ std::set<std::string> remove_damaged_rows(Database& database, const SharedTable&
 }
 
 void require_intact_descriptions(Database& database) {
-  for (const SharedTable& table : {kRunTable, kProvenanceTable, kInputTable}) {
+  for (const SharedTable& table : {kRunTable, kProvenanceTable, kInputTable, kSequenceNoteTable}) {
     const std::set<std::string> damaged = damaged_rows(database, table);
     if (damaged.empty()) continue;
     throw_damaged(database.file(),

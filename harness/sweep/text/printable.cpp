@@ -24,8 +24,9 @@ std::size_t code_point_bytes(std::string_view text) {
   };
   const std::uint32_t first = byte(0);
   if (first < 0x80) return 1;
-  const std::size_t size = first < 0xc0 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-  if (size == 0 || first > 0xf4 || text.size() < size) return 0;
+  if (first < 0xc0 || first > 0xf4) return 0;
+  const std::size_t size = 2 + (first >= 0xe0 ? 1 : 0) + (first >= 0xf0 ? 1 : 0);
+  if (text.size() < size) return 0;
   std::uint32_t point = first & (0x7fu >> size);
   for (std::size_t i = 1; i < size; ++i) {
     if ((byte(i) & 0xc0u) != 0x80) return 0;

@@ -43,9 +43,6 @@ class ListsByKey {
   std::map<Key, std::size_t> place_;
 };
 
-/// Between the number of reasons and the first of them.
-inline constexpr const char* kFirstReason = " reasons, the first: ";
-
 /// One line for each reason, in order of appearance: "ROWS: WHATS STATUS: WHY". Groups values of
 /// one row with the same reason, then rows with the same groups. More than three reasons of the
 /// same values are one line, so that a method that fails everywhere is not one line for each
@@ -63,7 +60,7 @@ inline std::vector<std::string> grouped(const std::vector<Missing>& missing) {
     const auto& [row, status, why] = reason;
     std::size_t& count = reasons[{row, listed(list), status}];
     if (count == 0) continue;  // all are in the line of the first
-    const std::string several = count > 3 ? std::to_string(count) + kFirstReason : "";
+    const std::string several = count > 3 ? std::to_string(count) + " reasons, the first: " : "";
     rows.add({listed(list), status, several + why}, row);
     if (count > 3) count = 0;
   }
