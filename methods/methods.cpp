@@ -3,6 +3,7 @@
 #include "datasets/core/error.hpp"
 #include "datasets/core/polyline.hpp"
 #include "methods/correctors/checked.hpp"
+#include "methods/correctors/consensus.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/elch.hpp"
 #include "methods/correctors/pose_graph.hpp"
@@ -93,6 +94,8 @@ std::vector<MethodEntry> methods() {
           "pose_graph_pcm",
           "pose_graph on the largest pairwise consistent set of closures",
           {.base = {.start = PoseGraphOptimizer::Start::chordal}}),
+      method<Consensus>("consensus",
+                        "pose_graph on the closures that agree, with calibrated covariances"),
 
       // Smoothers: keyframes in, a curve out.
       smoother("polyline", "linear interpolation of position, slerp of rotation", polyline),

@@ -80,52 +80,78 @@ inline Eigen::MatrixXd gathered(const std::vector<Column>& inverse,
   return out;
 }
 
-/// Returns the blocks on the diagonal of the inverse of a symmetric positive definite matrix, each
-/// `block` x `block`. `lower` is its lower triangle in complete blocks: every stored block has all
-/// entries, zeros included, except above the diagonal.
+/// The inverse of a symmetric positive definite matrix, on the pattern of its Cholesky factor,
+/// which contains that of the matrix. `lower` is its lower triangle in complete blocks of size
+/// `block`: every stored block has all entries, zeros included, except above the diagonal.
 ///
 /// The entries of the inverse on the pattern of the Cholesky factor are computed from the last
 /// column to the first, because each depends only on entries of later columns on this pattern. Time
-/// and memory are those of the factorisation, up to a constant. Throws std::runtime_error if the
-/// matrix is not positive definite.
+/// and memory are those of the factorisation, up to a constant. The constructor throws
+/// std::runtime_error if the matrix is not positive definite.
 ///
 /// Source: K. Takahashi, J. Fagan, M.-S. Chin, Formation of a sparse bus impedance matrix, 1973;
 /// A. M. Erisman, W. F. Tinney, On computing certain elements of the inverse of a sparse matrix,
 /// CACM 18(3), 1975.
+class SelectedInverse {
+ public:
+  SelectedInverse(const Sparse& lower, Eigen::Index block)
+      : block_(block), new_from_old_(ordering(lower, block)) {
+    const Eigen::Index blocks = lower.rows() / block;
+    Sparse permuted(lower.rows(), lower.cols());
+    permuted.selfadjointView<Eigen::Lower>() =
+        lower.selfadjointView<Eigen::Lower>().twistedBy(new_from_old_);
+    const Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> cholesky(
+        permuted);
+    if (cholesky.info() != Eigen::Success) {
+      throw std::runtime_error("covariances: the information matrix is not positive definite");
+    }
+    const Sparse& factor = cholesky.matrixL().nestedExpression();
+    inverse_.resize(static_cast<std::size_t>(blocks));
+    for (Eigen::Index j = blocks; j-- > 0;) {
+      Column column = factor_column(factor, j, block);
+      const Eigen::MatrixXd own = column.values.topRows(block).triangularView<Eigen::Lower>().solve(
+          Eigen::MatrixXd::Identity(block, block));
+      const Eigen::Index rest = column.values.rows() - block;
+      // With L = [D; S], the inverse of D' D plus the part of the later columns.
+      const Eigen::MatrixXd weights = column.values.bottomRows(rest) * own;
+      const std::span<const Eigen::Index> separator(column.rows.begin() + 1, column.rows.end());
+      const Eigen::MatrixXd later = gathered(inverse_, separator, block);
+      column.values.bottomRows(rest).noalias() = -(later.selfadjointView<Eigen::Lower>() * weights);
+      Eigen::MatrixXd diagonal = own.transpose() * own;
+      diagonal.noalias() -= weights.transpose() * column.values.bottomRows(rest);
+      column.values.topRows(block) = 0.5 * (diagonal + diagonal.transpose());
+      inverse_[static_cast<std::size_t>(j)] = std::move(column);
+    }
+  }
+
+  /// Block (i, j) of the inverse, of the matrix's pattern. O(log rows).
+  Eigen::MatrixXd block(Eigen::Index i, Eigen::Index j) const {
+    const Eigen::Index a = position(i), b = position(j);
+    const Column& column = inverse_[static_cast<std::size_t>(std::min(a, b))];
+    const auto found = std::ranges::lower_bound(column.rows, std::max(a, b));
+    const Eigen::MatrixXd out =
+        column.values.middleRows((found - column.rows.begin()) * block_, block_);
+    return a >= b ? out : Eigen::MatrixXd(out.transpose());
+  }
+
+ private:
+  Eigen::Index position(Eigen::Index block) const {
+    return new_from_old_.indices()[block * block_] / block_;
+  }
+
+  Eigen::Index block_;
+  Permutation new_from_old_;
+  std::vector<Column> inverse_;
+};
+
+/// Returns the blocks on the diagonal of the inverse, see SelectedInverse.
 inline std::vector<Eigen::MatrixXd> inverse_diagonal_blocks(const Sparse& lower,
                                                             Eigen::Index block) {
   const Eigen::Index blocks = lower.rows() / block;
-  std::vector<Eigen::MatrixXd> out(static_cast<std::size_t>(blocks));
+  std::vector<Eigen::MatrixXd> out;
   if (blocks == 0) return out;
-  const Permutation new_from_old = ordering(lower, block);
-  Sparse permuted(lower.rows(), lower.cols());
-  permuted.selfadjointView<Eigen::Lower>() =
-      lower.selfadjointView<Eigen::Lower>().twistedBy(new_from_old);
-  const Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> cholesky(permuted);
-  if (cholesky.info() != Eigen::Success) {
-    throw std::runtime_error("covariances: the information matrix is not positive definite");
-  }
-  const Sparse& factor = cholesky.matrixL().nestedExpression();
-  std::vector<Column> inverse(static_cast<std::size_t>(blocks));
-  for (Eigen::Index j = blocks; j-- > 0;) {
-    Column column = factor_column(factor, j, block);
-    const Eigen::MatrixXd own = column.values.topRows(block).triangularView<Eigen::Lower>().solve(
-        Eigen::MatrixXd::Identity(block, block));
-    const Eigen::Index rest = column.values.rows() - block;
-    // With L = [D; S], the inverse of D' D plus the part of the later columns.
-    const Eigen::MatrixXd weights = column.values.bottomRows(rest) * own;
-    const std::span<const Eigen::Index> separator(column.rows.begin() + 1, column.rows.end());
-    const Eigen::MatrixXd later = gathered(inverse, separator, block);
-    column.values.bottomRows(rest).noalias() = -(later.selfadjointView<Eigen::Lower>() * weights);
-    Eigen::MatrixXd diagonal = own.transpose() * own;
-    diagonal.noalias() -= weights.transpose() * column.values.bottomRows(rest);
-    column.values.topRows(block) = 0.5 * (diagonal + diagonal.transpose());
-    inverse[static_cast<std::size_t>(j)] = std::move(column);
-  }
-  for (Eigen::Index i = 0; i < blocks; ++i) {
-    const auto j = static_cast<std::size_t>(new_from_old.indices()[i * block] / block);
-    out[static_cast<std::size_t>(i)] = inverse[j].values.topRows(block);
-  }
+  const SelectedInverse inverse(lower, block);
+  for (Eigen::Index i = 0; i < blocks; ++i) out.push_back(inverse.block(i, i));
   return out;
 }
 
@@ -167,12 +193,13 @@ inline typename G::Square anchor_information(const Anchor& anchor, const Pose& w
   return J.transpose() * anchor.covariance.inverse() * J;
 }
 
-/// Twists are relative to each pose, so that the world frame does not matter.
+/// Information over the poses from `first` on, about d in X Exp(d). Twists are relative to each
+/// pose, so that the world frame does not matter.
 template <class G>
-inline std::vector<Matrix6> covariances_in(const std::vector<ScaledPose>& poses,
-                                           const WeightedEdges& edges,
-                                           const PoseGraphSettings& settings) {
-  const std::size_t first = settings.is_first_free ? 0 : 1;
+inline Information<G> graph_information(const std::vector<ScaledPose>& poses,
+                                        const WeightedEdges& edges,
+                                        const PoseGraphSettings& settings,
+                                        std::size_t first) {
   const ScaledPose first_from_world = poses.front().inverse();
   Information<G> information(first);
   edges.for_each([&](const Edge& edge, double weight, bool is_closure) {
@@ -185,6 +212,15 @@ inline std::vector<Matrix6> covariances_in(const std::vector<ScaledPose>& poses,
     information.add(edge.to, edge.to, at.by_to.transpose() * omega * at.by_to);
     information.add(edge.to, edge.from, at.by_to.transpose() * omega * at.by_from);
   });
+  return information;
+}
+
+template <class G>
+inline std::vector<Matrix6> covariances_in(const std::vector<ScaledPose>& poses,
+                                           const WeightedEdges& edges,
+                                           const PoseGraphSettings& settings) {
+  const std::size_t first = settings.is_first_free ? 0 : 1;
+  Information<G> information = graph_information<G>(poses, edges, settings, first);
   for (const Anchor& anchor : settings.anchors) {
     information.add(anchor.keyframe,
                     anchor.keyframe,

@@ -1,0 +1,37 @@
+#include "methods/correctors/consensus.hpp"
+
+#include "methods/correctors/consensus/judgement.hpp"
+#include "methods/correctors/pose_graph.hpp"
+
+namespace loopbench::methods {
+
+std::string Consensus::why_declined(const Problem& problem) const {
+  return why_not_judged(problem);
+}
+
+Trajectory Consensus::correct(const Problem& problem, Report& report) const {
+  const ClosureJudgement found = report.time("judge", [&] { return judge_closures(problem); });
+  report.count("decided", found.is_decided() ? 1.0 : 0.0);
+  report.count("factor_t", found.factors.translation);
+  report.count("factor_r", found.factors.rotation);
+  report.count("factor_closures", found.factors.closures);
+  report.count("evidence", found.evidence);
+  report.count("rival_evidence", found.rival_evidence.value_or(0.0));
+  report.count("closures_kept", found.is_decided() ? static_cast<double>(found.agreeing) : 0.0);
+  report.rejected.emplace();
+  for (std::size_t k = 0; k < found.closures.size(); ++k) {
+    const bool is_kept = found.is_decided() && found.closures[k].finding == ClosureFinding::agrees;
+    if (!is_kept) report.rejected->push_back(k);
+  }
+  if (!found.is_decided()) {
+    report.notes.push_back("the closures do not decide what is true (" + to_text(found.outcome) +
+                           "): keyframes returned unchanged");
+    return problem.keyframes;
+  }
+  PoseGraphOptimizer::Options options;
+  options.start = PoseGraphOptimizer::Start::chordal;
+  options.covariances = options_.covariances;
+  return PoseGraphOptimizer(options).correct(agreed_problem(problem, found), report);
+}
+
+}  // namespace loopbench::methods

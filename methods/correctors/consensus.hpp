@@ -1,0 +1,37 @@
+/// Pose-graph optimisation with the closures that agree, and with calibrated covariances.
+#pragma once
+
+#include "methods/method.hpp"
+
+namespace loopbench::methods {
+
+/// Estimates factors on the stated deviations together with the closures that agree with each other
+/// and with the odometry (consensus/judgement.hpp), and corrects by PoseGraphOptimizer with both.
+/// If the data do not decide, the keyframes are returned unchanged.
+///
+/// Robust losses decide by the stated covariances: too large, and false closures pass; too small,
+/// and true ones are dropped. Here the odometry's deviations are those that the closures show.
+class Consensus final : public Corrector {
+ public:
+  struct Options {
+    bool covariances = false;
+  };
+  explicit Consensus(const Options& options) : options_(options) {}
+
+  std::string why_declined(const Problem& problem) const override;
+
+  /// Counts: `decided` (0 or 1), `closures_kept`, `factor_t`, `factor_r` and `factor_closures` on
+  /// standard deviations, `evidence` and `rival_evidence` (log odds), and those of
+  /// PoseGraphOptimizer. Throws std::runtime_error when the solver finds no usable solution.
+  Trajectory correct(const Problem& problem, Report& report) const override;
+
+ private:
+  Options options_;
+};
+
+template <class Visit>
+void fields(Consensus::Options& o, Visit visit) {
+  visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
+}
+
+}  // namespace loopbench::methods

@@ -1,0 +1,94 @@
+/// Solution of the linear model of a chain for loops that are taken as true.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "methods/correctors/consensus/cycle_model.hpp"
+#include "methods/solvers/left_out_closures.hpp"
+
+namespace loopbench::methods::consensus {
+
+/// Joint covariance C of some loops of a model under given factors, factorised.
+/// O((loops kDof)^3).
+template <class G>
+class JointLoops {
+ public:
+  static constexpr Eigen::Index D = G::kDof;
+  using Tangent = typename G::Tangent;
+  using Square = typename G::Square;
+
+  JointLoops(const CycleModel<G>& model,
+             const LogFactors& factors,
+             const std::vector<std::size_t>& loops)
+      : model_(model), loops_(loops), sums_(model.step_sums(factors)) {
+    const auto size = D * static_cast<Eigen::Index>(loops.size());
+    const double variance = std::exp(2.0 * factors.closures);
+    Eigen::MatrixXd covariance(size, size);
+    Eigen::VectorXd rho(size);
+    for (std::size_t j = 0; j < loops.size(); ++j) {
+      for (std::size_t i = j; i < loops.size(); ++i) {
+        covariance.block<D, D>(row(i), row(j)) = model.shared(sums_, loops[i], loops[j]);
+      }
+      covariance.block<D, D>(row(j), row(j)) += variance * model.own(loops[j]);
+      rho.segment<D>(row(j)) = model.rho(loops[j]);
+    }
+    factor_.compute(covariance);
+    if (is_positive()) multipliers_ = factor_.solve(rho);
+  }
+
+  /// Whether C is positive definite; nothing else may be called otherwise.
+  bool is_positive() const { return factor_.info() == Eigen::Success; }
+
+  /// Poses of the chain corrected by the loops.
+  std::vector<typename G::Element> corrected() const {
+    std::vector<Tangent> multipliers;
+    for (std::size_t i = 0; i < loops_.size(); ++i) {
+      multipliers.push_back(multipliers_.template segment<D>(row(i)));
+    }
+    return model_.corrected(sums_, loops_, multipliers);
+  }
+
+  /// One per loop: with P = C^-1, the covariance P_aa^-1 and the error P_aa^-1 (P rho)_a.
+  std::vector<LeftOut<G>> left_out() const {
+    const Eigen::MatrixXd half = inverse_of_lower();
+    std::vector<LeftOut<G>> out;
+    for (std::size_t i = 0; i < loops_.size(); ++i) {
+      const auto columns = half.block(row(i), row(i), half.rows() - row(i), D);
+      const Square precision = columns.transpose() * columns;
+      const Square covariance = precision.inverse();
+      out.push_back({covariance * multipliers_.template segment<D>(row(i)), covariance, 0.0, 0.0});
+    }
+    return out;
+  }
+
+ private:
+  static Eigen::Index row(std::size_t loop) { return D * static_cast<Eigen::Index>(loop); }
+
+  /// L^-1 of C = L L', in panels of which only the rows from the diagonal on are computed.
+  Eigen::MatrixXd inverse_of_lower() const {
+    constexpr Eigen::Index kPanel = 96;  // columns
+    const Eigen::MatrixXd& lower = factor_.matrixLLT();
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(lower.rows(), lower.cols());
+    for (Eigen::Index begin = 0; begin < lower.rows(); begin += kPanel) {
+      const Eigen::Index rows = lower.rows() - begin;
+      auto panel = out.block(begin, begin, rows, std::min(kPanel, rows));
+      panel.diagonal().setOnes();
+      lower.bottomRightCorner(rows, rows)
+          .template triangularView<Eigen::Lower>()
+          .solveInPlace(panel);
+    }
+    return out;
+  }
+
+  const CycleModel<G>& model_;
+  const std::vector<std::size_t>& loops_;
+  std::vector<Square> sums_;
+  Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor_;
+  Eigen::VectorXd multipliers_;
+};
+
+}  // namespace loopbench::methods::consensus

@@ -1,0 +1,133 @@
+// Error rates of `consensus` and other correctors on chains with planted closures.
+// Usage: consensus_rates DATA HALF METHODS   (HALF: 0 design, 1 held out; METHODS: a,b,c)
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "methods/method.hpp"
+#include "tests/studies/planted_problems.hpp"
+
+namespace loopbench {
+namespace {
+
+using methods::Corrector;
+
+double absolute_error(const Trajectory& keyframes, const Trajectory& truth) {
+  Eigen::Matrix3Xd a(3, static_cast<Eigen::Index>(truth.size())), b = a;
+  for (Eigen::Index i = 0; i < a.cols(); ++i) {
+    a.col(i) = keyframes[static_cast<std::size_t>(i)].world_from_body.translation;
+    b.col(i) = truth[static_cast<std::size_t>(i)].world_from_body.translation;
+  }
+  const Eigen::Matrix4d fit = Eigen::umeyama(a, b, false);
+  const Eigen::Matrix3Xd fitted =
+      (fit.topLeftCorner<3, 3>() * a).colwise() + Vector3(fit.topRightCorner<3, 1>());
+  return std::sqrt((fitted - b).squaredNorm() / static_cast<double>(a.cols()));
+}
+
+struct Run {
+  double ate = 0.0, seconds = 0.0;
+  std::size_t kept_false = 0, dropped_true = 0;
+  methods::Report report;
+};
+
+Run run(const std::string& name, const PlantedProblem& of, const TrueChain& chain) {
+  const methods::Stage stage = methods::find_method(name).make({});
+  const auto& corrector = std::get<std::unique_ptr<const Corrector>>(stage);
+  Run out;
+  const auto begin = std::chrono::steady_clock::now();
+  Trajectory result = of.problem.keyframes;
+  if (corrector->why_declined(of.problem).empty()) {
+    result = corrector->correct(of.problem, out.report);
+  }
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  out.ate = absolute_error(result, chain.truth);
+  std::vector<bool> is_kept(of.is_false.size(), true);
+  for (const std::size_t k : out.report.rejected.value_or(std::vector<std::size_t>{})) {
+    is_kept[k] = false;
+  }
+  for (std::size_t k = 0; k < is_kept.size(); ++k) {
+    out.kept_false += is_kept[k] && of.is_false[k] ? 1 : 0;
+    out.dropped_true += !is_kept[k] && !of.is_false[k] ? 1 : 0;
+  }
+  return out;
+}
+
+double count_of(const methods::Report& report, const std::string& name) {
+  for (const methods::Count& count : report.counts) {
+    if (count.name == name) return count.value;
+  }
+  return 0.0;
+}
+
+/// The true closures and deviations.
+double oracle(const TrueChain& chain, const PlantedProblem& of) {
+  PlantedProblem known = of;
+  known.problem.odometry = chain.problem.odometry;
+  known.problem.closures.clear();
+  for (std::size_t k = 0; k < of.is_false.size(); ++k) {
+    if (!of.is_false[k]) known.problem.closures.push_back(of.problem.closures[k]);
+  }
+  known.is_false.assign(known.problem.closures.size(), false);
+  return run("pose_graph", known, chain).ate;
+}
+
+}  // namespace
+}  // namespace loopbench
+
+int main(int argc, char** argv) {
+  using namespace loopbench;
+  if (argc != 4) {
+    fmt::print(stderr, "usage: consensus_rates DATA HALF METHODS\n");
+    return 2;
+  }
+  const int half = std::atoi(argv[2]);
+  std::vector<std::string> names;
+  std::istringstream given(argv[3]);
+  for (std::string name; std::getline(given, name, ',');) names.push_back(name);
+  std::vector<TrueChain> chains = recorded_chains(argv[1]);
+  for (TrueChain& each : simulated_chains(1, 12)) chains.push_back(std::move(each));
+  fmt::print(
+      "chain,plant,odometry,method,ate,raw,oracle,true,false,kept_false,dropped_true,"
+      "seconds,decided,factor_t,factor_r,factor_closures,evidence,rival\n");
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    if (static_cast<int>(c % 2) != half) continue;
+    const TrueChain& chain = chains[c];
+    for (int plant = 0; plant <= static_cast<int>(Plant::one_of_three_false); ++plant) {
+      for (const double odometry : {0.1, 1.0, 10.0}) {
+        const PlantedProblem problem = planted(chain, static_cast<Plant>(plant), odometry, 1);
+        const auto falses = std::ranges::count(problem.is_false, true);
+        const double raw = absolute_error(chain.problem.keyframes, chain.truth);
+        const double known = oracle(chain, problem);
+        for (const std::string& name : names) {
+          const Run done = run(name, problem, chain);
+          fmt::print(
+              "{},{},{},{},{:.5g},{:.5g},{:.5g},{},{},{},{},{:.4f},{},{:.3g},{:.3g},{:.3g},"
+              "{:.3g},{:.3g}\n",
+              chain.name,
+              name_of(static_cast<Plant>(plant)),
+              odometry,
+              name,
+              done.ate,
+              raw,
+              known,
+              std::ssize(problem.is_false) - falses,
+              falses,
+              done.kept_false,
+              done.dropped_true,
+              done.seconds,
+              count_of(done.report, "decided"),
+              count_of(done.report, "factor_t"),
+              count_of(done.report, "factor_r"),
+              count_of(done.report, "factor_closures"),
+              count_of(done.report, "evidence"),
+              count_of(done.report, "rival_evidence"));
+        }
+        std::fflush(stdout);
+      }
+    }
+  }
+}

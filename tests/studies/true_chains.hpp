@@ -1,0 +1,28 @@
+/// Odometry chains with the true pose of each keyframe, recorded and simulated.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "datasets/core/problem.hpp"
+
+namespace loopbench {
+
+struct TrueChain {
+  std::string name;
+  Problem problem;             ///< without closures; odometry with its true mean deviations
+  Trajectory truth;            ///< of each keyframe
+  std::vector<Edge> revisits;  ///< true relative poses, without noise, ascending in (to, from)
+  double sigma_t = 0.0;        ///< of closures [m]
+  double sigma_r = 0.0;        ///< [rad]
+};
+
+/// Chains of the data folder, at most 400 keyframes each, in a fixed order. Keyframes without a
+/// true pose are left out.
+std::vector<TrueChain> recorded_chains(const std::filesystem::path& data);
+
+/// Simulated drives and rooms with seeds from `first` on.
+std::vector<TrueChain> simulated_chains(std::int64_t first, int count);
+
+}  // namespace loopbench
