@@ -18,6 +18,7 @@ class Consensus final : public Corrector {
   };
   explicit Consensus(const Options& options) : options_(options) {}
 
+  /// Declines what judge_closures() does not judge, anchors among it, and names pose_graph.
   std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `decided` (0 or 1), `closures_kept`, `factor_t`, `factor_r` and `factor_closures` on

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -119,6 +120,30 @@ inline LogFactors climb(const LoopLikelihood& loops, LogFactors at, double step,
     }
   }
   return at;
+}
+
+/// Spread of the log factor of the rotation at the maximum, by second differences of the posterior.
+inline double rotation_spread(const LoopLikelihood& loops, const LogFactors& at) {
+  constexpr double kStep = 0.15;
+  Eigen::Matrix3d hessian;
+  const auto value = [&](int i, int j, double by_i, double by_j) {
+    Eigen::Vector3d moved(at.translation, at.rotation, at.closures);
+    moved[i] += by_i * kStep;
+    moved[j] += by_j * kStep;
+    return loops.log_posterior({moved[0], moved[1], moved[2]});
+  };
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      hessian(i, j) = hessian(j, i) =
+          -(value(i, j, 1, 1) - value(i, j, 1, -1) - value(i, j, -1, 1) + value(i, j, -1, -1)) /
+          (4.0 * kStep * kStep);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(hessian);
+  constexpr double kPriorPrecision = 0.5;
+  const Eigen::Vector3d inverse = solver.eigenvalues().cwiseMax(kPriorPrecision).cwiseInverse();
+  const Eigen::Matrix3d& axes = solver.eigenvectors();
+  return std::sqrt((axes * inverse.asDiagonal() * axes.transpose())(1, 1));
 }
 
 }  // namespace loopbench::methods::consensus

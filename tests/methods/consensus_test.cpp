@@ -1,0 +1,279 @@
+// consensus: densities worked by hand, equal results of its factorisations, planted false closures
+// singly, at random and in families, unknown steps, and what is left undecided.
+#include "methods/correctors/consensus.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "datasets/derive/odometry.hpp"
+#include "methods/correctors/consensus/judge.hpp"
+#include "methods/correctors/pose_graph.hpp"
+#include "methods/solvers/groups/se2.hpp"
+#include "methods/solvers/groups/se3.hpp"
+#include "tests/support/corrected.hpp"
+#include "tests/support/problems.hpp"
+#include "tests/support/rounds.hpp"
+#include "tests/support/simulated_drive.hpp"
+
+namespace loopbench::test::consensus_test {
+namespace {
+
+using namespace methods::consensus;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::vector<std::size_t> indices(std::size_t count) {
+  std::vector<std::size_t> out(count);
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  return out;
+}
+
+/// Steps of 1 m along x with a deviation of 2 cm, and closures that measure `metres`.
+Problem line(std::size_t steps, const std::vector<double>& metres) {
+  std::vector<double> x(steps + 1);
+  std::iota(x.begin(), x.end(), 0.0);
+  Problem out = along_x(x);
+  for (Edge& edge : out.odometry) edge.information = isotropic_information(4e-4, 4e-6);
+  for (std::size_t k = 0; k < metres.size(); ++k) {
+    const std::size_t from = metres.size() - 1 - k;
+    out.closures.push_back(
+        {from, steps - from, at_x(metres[k]), isotropic_information(4e-4, 4e-6)});
+  }
+  std::ranges::sort(out.closures, {}, &Edge::to);
+  return out;
+}
+
+TEST(ErrorDensity, IsThatOfTheNormalDistribution) {
+  const Vector3 error(1.0, 2.0, 2.0);
+  const Matrix3 covariance = Vector3(1.0, 4.0, 4.0).asDiagonal();
+  const ErrorDensity found = normal_density(error, covariance);
+  EXPECT_NEAR(found.squared, 3.0, 1e-12);
+  EXPECT_NEAR(found.log_density, -1.5 - 1.5 * std::log(2.0 * M_PI) - std::log(4.0), 1e-12);
+  EXPECT_FALSE(std::isfinite(normal_density(error, Matrix3(-covariance)).log_density));
+}
+
+TEST(CycleModel, AddsTheVariancesOfTheStepsOfALoop) {
+  const Problem problem = line(10, {10.3});
+  const std::vector<std::size_t> all = indices(1);
+  const ReducedChain<Se3> chain = reduced_chain<Se3>(problem, all);
+  const CycleModel<Se3> model(chain, chain.poses);
+  EXPECT_NEAR(model.rho(0)[0], 0.3, 1e-12);
+  const auto variance = [&](const LogFactors& at) {
+    return Elimination<Se3>(model, at).covariance(0)(0, 0);
+  };
+  EXPECT_NEAR(variance({}), 10 * 4e-4 + 4e-4, 1e-12);
+  EXPECT_NEAR(variance({std::log(3.0), 0.0, 0.0}), 9 * 10 * 4e-4 + 4e-4, 1e-12);
+  EXPECT_NEAR(variance({0.0, 0.0, std::log(2.0)}), 10 * 4e-4 + 4 * 4e-4, 1e-12);
+}
+
+template <class G>
+void expect_equal_densities(const Problem& problem) {
+  const std::vector<std::size_t> all = indices(problem.closures.size());
+  const ReducedChain<G> chain = reduced_chain<G>(problem, all);
+  const CycleModel<G> model(chain, chain.poses);
+  const LogFactors at{0.3, -0.4, 0.2};
+  Elimination<G> eliminated(model, at);
+  std::vector<std::size_t> order = all;
+  std::ranges::reverse(order);
+  ASSERT_TRUE(eliminated.condition_on(order));
+  EXPECT_NEAR(eliminated.log_odds(),
+              LoopLikelihood(model, all).log_odds(at),
+              1e-7 * problem.keyframes.size());
+  // Without each loop: by elimination of all others.
+  const JointLoops<G> joint(model, at, all);
+  const std::vector<LeftOut<G>> without = joint.left_out();
+  for (const std::size_t a : all) {
+    Elimination<G> others(model, at);
+    for (const std::size_t b : all) {
+      if (b != a) ASSERT_TRUE(others.condition_on(b));
+    }
+    const double size = 1.0 + without[a].covariance.norm();
+    EXPECT_LT((others.error(a) - without[a].error).norm(), 1e-8 * size);
+    EXPECT_LT((others.covariance(a) - without[a].covariance).norm(), 1e-8 * size);
+  }
+}
+
+TEST(Elimination, HasTheDensitiesOfTheJointCovariance) {
+  expect_equal_densities<Se3>(rounds(1));
+  expect_equal_densities<Se2>(simulated_drive({.closures = 6}).problem);
+}
+
+TEST(LeftOutClosures, AreThoseOfTheChainModel) {
+  const Problem problem = line(10, {10.3, 7.9, 6.2});
+  std::vector<ScaledPose> poses;
+  for (const StampedPose& each : corrected<PoseGraphOptimizer>(problem)) {
+    poses.push_back({each.world_from_body, 1.0});
+  }
+  const auto found = left_out_closures<Se3>(poses, problem);
+  const std::vector<std::size_t> all = indices(3);
+  const ReducedChain<Se3> chain = reduced_chain<Se3>(problem, all);
+  const CycleModel<Se3> model(chain, chain.poses);
+  const JointLoops<Se3> joint(model, {}, all);
+  const std::vector<LeftOut<Se3>> expected = joint.left_out();
+  double redundancy = 0.0;
+  for (const std::size_t k : all) {
+    ASSERT_TRUE(found[k]);
+    EXPECT_NEAR(std::abs(found[k]->error[0]), std::abs(expected[k].error[0]), 1e-6);
+    EXPECT_NEAR(found[k]->covariance(0, 0), expected[k].covariance(0, 0), 1e-9);
+    redundancy += found[k]->redundancy;
+  }
+  EXPECT_GT(redundancy, 0.0);
+  EXPECT_LT(redundancy, 18.0);  // the odometry has the rest
+}
+
+/// Ends of the closures that are rejected.
+std::vector<std::pair<std::size_t, std::size_t>> rejected(const Problem& problem,
+                                                          Report* report = nullptr) {
+  Report own;
+  Report& used = report ? *report : own;
+  corrected<Consensus>(problem, {}, &used);
+  std::vector<std::pair<std::size_t, std::size_t>> out;
+  for (const std::size_t k : *used.rejected) {
+    out.emplace_back(problem.closures[k].from, problem.closures[k].to);
+  }
+  return out;
+}
+
+TEST(Consensus, RejectsExactlyTheFalseClosuresOfADrive) {
+  const Sequence clean = simulated_drive({.closures = 20});
+  const double without = rmse(corrected<Consensus>(clean.problem),
+                              at_stamps_of(clean.problem.keyframes, clean.reference));
+  for (const double share : {0.2, 0.4}) {
+    const Sequence mixed = simulated_drive({.closures = 20, .false_share = share});
+    Report report;
+    const Trajectory done = corrected<Consensus>(mixed.problem, {}, &report);
+    EXPECT_EQ(count(report, "decided"), 1.0);
+    const std::size_t planted = mixed.problem.closures.size() - clean.problem.closures.size();
+    EXPECT_EQ(report.rejected->size(), planted) << share;
+    EXPECT_LT(rmse(done, at_stamps_of(done, mixed.reference)), 1.1 * without) << share;
+  }
+}
+
+TEST(Consensus, DoesNotDependOnTheScaleOfStatedDeviations) {
+  const Sequence mixed = simulated_drive({.closures = 12, .false_share = 0.3});
+  Report report;
+  const auto expected = rejected(mixed.problem, &report);
+  const double factor = count(report, "factor_r");
+  for (const double scale : {0.1, 10.0}) {
+    Problem stated = mixed.problem;
+    for (Edge& edge : stated.odometry) edge.information /= scale * scale;
+    Report scaled;
+    EXPECT_EQ(rejected(stated, &scaled), expected) << scale;
+    EXPECT_NEAR(count(scaled, "factor_r") * scale / factor, 1.0, 0.35) << scale;
+  }
+}
+
+TEST(Consensus, DoesNotDependOnTheOrderOfClosures) {
+  Problem problem = simulated_drive({.closures = 10, .false_share = 0.3}).problem;
+  auto expected = rejected(problem);
+  std::ranges::reverse(problem.closures);
+  auto found = rejected(problem);
+  std::ranges::sort(expected);
+  std::ranges::sort(found);
+  EXPECT_EQ(found, expected);
+}
+
+TEST(Consensus, RejectsAFamilyThatAgrees) {
+  const Sequence clean = simulated_drive({.closures = 12});
+  Problem problem = clean.problem;
+  const Trajectory truth = at_stamps_of(problem.keyframes, clean.reference);
+  const auto pose = [&](std::size_t k) { return truth[k].world_from_body; };
+  const Pose measured = problem.closures.front().from_from_to;
+  const Pose wrong = pose(30) * measured * pose(120).inverse();
+  for (std::size_t i = 0; i < 8; i += 2) {  // the same wrong place, entered four times
+    problem.closures.push_back({30 + i,
+                                120 + i,
+                                normalized(pose(30 + i).inverse() * wrong * pose(120 + i)),
+                                problem.closures.front().information});
+  }
+  std::ranges::sort(problem.closures, {}, [](const Edge& e) { return std::pair(e.to, e.from); });
+  EXPECT_THAT(rejected(problem),
+              testing::UnorderedElementsAre(std::pair(30UL, 120UL),
+                                            std::pair(32UL, 122UL),
+                                            std::pair(34UL, 124UL),
+                                            std::pair(36UL, 126UL)));
+}
+
+TEST(Consensus, KeepsASingleClosureThatTheOdometryAllows) {
+  EXPECT_THAT(rejected(line(40, {40.2})), IsEmpty());
+  Report report;
+  const Problem far = line(40, {2.0});
+  EXPECT_EQ(rejected(far, &report).size(), 1u);
+  EXPECT_EQ(count(report, "decided"), 0.0);
+  expect_close(corrected<Consensus>(far), far.keyframes, 0.0);
+}
+
+TEST(Consensus, LeavesRivalsOfEqualSizeUndecided) {
+  // Both pairs are off by 3 m, to either side, and agree with each other.
+  Problem problem = line(40, {43.0, 41.0, 33.0, 31.0});
+  for (Edge& edge : problem.closures) edge.information = isotropic_information(1e-6, 1e-8);
+  const ClosureJudgement found = judge_closures(problem);
+  EXPECT_NE(found.outcome, ConsensusOutcome::decided);
+  EXPECT_GE(found.more_needed, 1u);
+  expect_close(corrected<Consensus>(problem), problem.keyframes, 0.0);
+}
+
+TEST(Consensus, JoinsPartsWithoutOdometryBetween) {
+  const Sequence drive = simulated_drive({.closures = 20});
+  Problem problem = drive.problem;
+  // Tracking is lost after keyframe 100 and starts again at the origin.
+  const Trajectory complete = corrected<Consensus>(problem);
+  std::erase_if(problem.odometry, [](const Edge& edge) { return edge.from == 100; });
+  const Pose moved = problem.keyframes[101].world_from_body.inverse();
+  for (std::size_t k = 101; k < problem.keyframes.size(); ++k) {
+    problem.keyframes[k].world_from_body = normalized(moved * problem.keyframes[k].world_from_body);
+  }
+  Report report;
+  const Trajectory joined = corrected<Consensus>(problem, {}, &report);
+  EXPECT_THAT(*report.rejected, IsEmpty());
+  EXPECT_LT(largest_distance(joined, complete), 1.5);
+}
+
+TEST(Consensus, TakesClosuresDerivedFromTheOdometryForNoEvidence) {
+  Problem problem = rounds(3);
+  const std::vector<Edge> measured = problem.closures;
+  for (std::size_t k = 0; k + 3 < problem.keyframes.size(); k += 2) {
+    const Pose motion = problem.odometry[k].from_from_to * problem.odometry[k + 1].from_from_to *
+                        problem.odometry[k + 2].from_from_to;
+    problem.closures.push_back({k, k + 3, normalized(motion), measured.front().information});
+  }
+  std::ranges::sort(problem.closures, {}, [](const Edge& e) { return std::pair(e.to, e.from); });
+  Report report;
+  EXPECT_THAT(rejected(problem, &report), IsEmpty());
+  EXPECT_GT(count(report, "factor_r"), 0.2);
+  EXPECT_LT(count(report, "factor_r"), 5.0);
+}
+
+TEST(Consensus, DropsFalseClosuresAmongHundreds) {
+  const Sequence mixed = simulated_drive({.closures = 300, .false_share = 0.3});
+  const Sequence clean = simulated_drive({.closures = 300});
+  const std::size_t planted = mixed.problem.closures.size() - clean.problem.closures.size();
+  ASSERT_GT(planted, 50u);
+  Report report;
+  const Trajectory done = corrected<Consensus>(mixed.problem, {}, &report);
+  EXPECT_NEAR(static_cast<double>(report.rejected->size()),
+              static_cast<double>(planted),
+              0.04 * static_cast<double>(mixed.problem.closures.size()));
+  const double without = rmse(corrected<PoseGraphOptimizer>(clean.problem),
+                              at_stamps_of(clean.problem.keyframes, clean.reference));
+  EXPECT_LT(rmse(done, at_stamps_of(done, mixed.reference)), 1.2 * without);
+}
+
+TEST(Consensus, DeclinesAnchorsAndSim3AndNamesPoseGraph) {
+  const Consensus method({});
+  EXPECT_THAT(method.why_declined(with_anchors(circle(), {0.1, 0.0, 0.0})),
+              HasSubstr("pose_graph"));
+  Problem scaled = circle();
+  scaled.closures.front().scale = 1.1;
+  EXPECT_THAT(method.why_declined(scaled), HasSubstr("pose_graph"));
+  Problem sparse = circle();
+  sparse.odometry.clear();
+  EXPECT_NE(method.why_declined(sparse), "");
+}
+
+}  // namespace
+}  // namespace loopbench::test::consensus_test
