@@ -201,18 +201,21 @@ TEST(Consensus, RejectsAFamilyThatAgrees) {
 TEST(Consensus, KeepsASingleClosureThatTheOdometryAllows) {
   EXPECT_THAT(rejected(line(40, {40.2})), IsEmpty());
   Report report;
-  const Problem far = line(40, {2.0});
+  Problem far = line(40, {2.0});
+  far.closures.front().from_from_to = turned_about_z(1.0, {2.0, 3.0, 0.0});
   EXPECT_EQ(rejected(far, &report).size(), 1u);
   EXPECT_EQ(count(report, "decided"), 0.0);
   expect_close(corrected<Consensus>(far), far.keyframes, 0.0);
 }
 
 TEST(Consensus, LeavesRivalsOfEqualSizeUndecided) {
-  // Both pairs are off by 3 m, to either side, and agree with each other.
-  Problem problem = line(40, {43.0, 41.0, 33.0, 31.0});
-  for (Edge& edge : problem.closures) edge.information = isotropic_information(1e-6, 1e-8);
+  // Of one pair of keyframes, 3 m too far and 3 m too near.
+  Problem problem = line(40, {});
+  for (const double metres : {43.0, 37.0}) {
+    problem.closures.push_back({0, 40, at_x(metres), isotropic_information(1e-6, 1e-8)});
+  }
   const ClosureJudgement found = judge_closures(problem);
-  EXPECT_NE(found.outcome, ConsensusOutcome::decided);
+  EXPECT_EQ(found.outcome, ConsensusOutcome::rival);
   EXPECT_GE(found.more_needed, 1u);
   expect_close(corrected<Consensus>(problem), problem.keyframes, 0.0);
 }
