@@ -2,7 +2,10 @@
 #include <fnmatch.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -21,6 +24,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const std::vector<std::string> kSubjects{"datasets", "methods", "metrics", "protocols"};
+
+/// They stay in 1.x for configs that name them, but no page recommends them: the list of everything
+/// prints their names alone.
+constexpr std::array<std::string_view, 9> kRarelyUsed{"rendered_room",
+                                                      "uniform_position",
+                                                      "uniform_open",
+                                                      "two_pass_open",
+                                                      "two_pass_motion",
+                                                      "along_cross",
+                                                      "jerk",
+                                                      "interpolation_floor",
+                                                      "rpg"};
 
 struct ListArguments {
   std::string subject;
@@ -156,6 +171,13 @@ void print_options(const Item& item) {
   }
 }
 
+/// "rarely used  jerk, ...".
+void print_names(const std::vector<Item>& rarely_used) {
+  std::string names;
+  for (const Item& item : rarely_used) names += (names.empty() ? "" : ", ") + item.name;
+  if (!names.empty()) fmt::print("{:<22} {}\n", "rarely used", names);
+}
+
 /// The summary of each entry; if `with_options`, its options, too. Protocols share theirs.
 void print(const std::string& subject, const std::vector<Item>& all, bool with_options) {
   const bool is_shared = subject == "protocols";
@@ -211,7 +233,7 @@ std::vector<ItemList> wanted_lists(const Catalogue& known, const ListArguments& 
 
 int list(const ListArguments& arguments) {
   const Catalogue known = catalogue(arguments.plugins);
-  const std::vector<ItemList> lists = wanted_lists(known, arguments);
+  std::vector<ItemList> lists = wanted_lists(known, arguments);
   if (arguments.json) {
     Json json;
     for (const ItemList& one : lists) {
@@ -227,7 +249,14 @@ int list(const ListArguments& arguments) {
   for (std::size_t i = 0; i < lists.size(); ++i) {
     const bool has_title = lists.size() > 1;
     if (has_title) fmt::print("{}== {} ==\n", i == 0 ? "" : "\n", lists[i].subject);
+    std::vector<Item> rare = lists[i].items;
+    const auto is_rare = [](const Item& item) {
+      return std::ranges::count(kRarelyUsed, item.name) > 0;
+    };
+    if (has_title && !lists[i].is_selected) std::erase_if(lists[i].items, is_rare);
     print(lists[i].subject, lists[i].items, lists[i].is_selected);
+    std::erase_if(rare, std::not_fn(is_rare));
+    if (has_title && !lists[i].is_selected) print_names(rare);
   }
   if (!lists.front().is_selected) {
     const std::string name = program_name();
