@@ -113,18 +113,30 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench report results/quickstart -o - | gzip >report.html.gz\n"},
 };
 
-/// Exit codes of commands besides 0, 2 and 3; "" is the program.
-const std::map<std::string, std::string> kExitCodes{
-    {"",
-     "1 failed cells, regressions or assertions; 4 the build lacks a required part; 130 "
-     "interrupted"},
-    {"run", "1 failed cells; 4 the build lacks a required part; 130 interrupted"},
-    {"eval", "1 an estimate failed or covers too little"},
-    {"compare", "1 an assertion is not shown"},
-    {"check", "1 regressions"},
-    {"loops", "1 closures contradict each other"},
-    {"doctor", "1 mistakes found or nothing could be checked"},
+/// Exit codes of a command besides 0, 2 and 3.
+struct ExitCodes {
+  std::string one = {};   ///< what 1 means; empty: the command does not exit with 1
+  std::string more = {};  ///< those above 3
 };
+/// "" is the program.
+const std::map<std::string, ExitCodes> kExitCodes{
+    {"",
+     {"failed cells, regressions or assertions",
+      "; 4 the build lacks a required part; 130 interrupted"}},
+    {"run", {"failed cells", "; 4 the build lacks a required part; 130 interrupted"}},
+    {"eval", {"an estimate failed or covers too little"}},
+    {"compare", {"an assertion is not shown"}},
+    {"check", {"regressions"}},
+    {"loops", {"closures contradict each other"}},
+    {"doctor", {"mistakes found or nothing could be checked"}},
+};
+
+std::string exit_codes_text(const std::string& command) {
+  const auto found = kExitCodes.find(command);
+  const ExitCodes codes = found == kExitCodes.end() ? ExitCodes{} : found->second;
+  return "Exit codes: 0 success; " + (codes.one.empty() ? "" : "1 " + codes.one + "; ") +
+         "2 invalid input or output; 3 internal error" + codes.more;
+}
 
 const CLI::App* named_command(const CLI::App& app, const std::string& name) {
   std::vector<std::string> known;
@@ -165,9 +177,7 @@ void add_footers(CLI::App& app) {
     const auto examples = kExamples.find(name);
     std::string footer = examples == kExamples.end() ? "" : "Examples:\n" + examples->second + "\n";
     if (!command.get_footer().empty()) footer += command.get_footer() + "\n\n";
-    const auto codes = kExitCodes.find(name);
-    command.footer(footer + "Exit codes: 0 success; 2 invalid input or output; 3 internal error" +
-                   (codes == kExitCodes.end() ? "" : "; " + codes->second));
+    command.footer(footer + exit_codes_text(name));
   };
   add(app, "");
   const auto all = [](const CLI::App*) { return true; };

@@ -256,7 +256,7 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
                    "Save every cell's estimate at full length, see `export --what trajectories`");
   command.add_flag("--failed-cells-ok",
                    a.failed_cells_ok,
-                   "Exit with 0 if cells failed: they are results, too, and have their reasons");
+                   "Exit with 0 even if cells failed; failures are recorded with their reasons");
   command.add_flag("--no-sandbox", a.no_sandbox, "Let external programs read all files");
   add(command, "--data DIR", a.data, "Folder with real datasets")->envname("LOOPBENCH_DATA");
   add(command, "-o,--out DIR", a.out, "Output folder (default: results/CONFIG)");
