@@ -126,6 +126,15 @@ class Notes(unittest.TestCase):
         self.assert_above((self.folder / "check.md").read_text(), "###")
         self.assertIn("<system-out>note: 5 of 6 runs of rp", (self.folder / "check.xml").read_text())
 
+    def test_python(self):
+        try:
+            import loopbench
+        except ImportError:
+            self.skipTest("no numpy")
+        os.environ["LOOPBENCH_PROGRAM"] = PROGRAM
+        first = loopbench.notes(self.folder / "store")[0]
+        self.assertEqual((first["kind"], first["severity"], first["runs"]), (AHEAD, "decisive", 5))
+
     def test_export(self):
         notes = json.loads(self.run_program("export", "store", "--what", "notes"))
         self.assertEqual([note["runs"] for note in notes if note["kind"] == AHEAD], [5])

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from .correction import correct, load, loops, methods, problem_of
     from .evaluation import Alignment, align, associate, evaluate, read_trajectory, score, tracking_gaps
     from .figures import plot_errors, plot_scores, plot_trajectories
-    from .sweeps import ComparedMethod, Comparison, compare, read, rows, run
+    from .sweeps import ComparedMethod, Comparison, compare, notes, read, rows, run
 
 # Imported when they are used: a served method starts without them.
 _MODULES = {
@@ -43,7 +43,7 @@ _MODULES = {
         "Alignment", "align", "associate", "evaluate", "read_trajectory", "score", "tracking_gaps"
     ),
     "figures": ("plot_errors", "plot_scores", "plot_trajectories"),
-    "sweeps": ("ComparedMethod", "Comparison", "compare", "read", "rows", "run"),
+    "sweeps": ("ComparedMethod", "Comparison", "compare", "notes", "read", "rows", "run"),
 }
 _LATER = {name: module for module, names in _MODULES.items() for name in names}
 
@@ -68,6 +68,7 @@ __all__ = [
     "loops",
     "methods",
     "metric",
+    "notes",
     "plot_errors",
     "plot_scores",
     "plot_trajectories",

@@ -123,6 +123,16 @@ def rows(store: str | Path) -> list[Row]:
     return [dict(zip(names, row)) for row in found]
 
 
+def notes(store: str | Path) -> list[dict[str, Any]]:
+    """What is known about the runs of a store besides their scores, as `export --what notes` prints it.
+
+    What can change a conclusion comes first: `severity` is decisive, caution or info. A note counts the
+    `runs` that have it, `of` so many.
+    """
+    found: list[dict[str, Any]] = json.loads(_call("export", str(store), "--what", "notes"))
+    return found
+
+
 def read(store: str | Path) -> pandas.DataFrame:
     """The same as a pandas data frame. Raises ImportError without pandas; `rows` needs none."""
     try:
