@@ -106,7 +106,7 @@ TEST(EvalNotes, StateHowPlanesAreAligned) {
     down.push_back({u, normalized(pose * camera)});
   }
   const auto note = [&](const Trajectory& estimate) {
-    return plane_note(metrics::evaluate(up, estimate, {.planar = Planar::yes}));
+    return plane_text(metrics::evaluate(up, estimate, {.planar = Planar::yes}));
   };
   const std::string moved = "planar, as set: both trajectories were moved to their planes";
   EXPECT_EQ(note(up), moved + " and aligned there");

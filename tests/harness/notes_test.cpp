@@ -15,7 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 
-using Notes = TinyStore;
+using StoredNotesTest = TinyStore;
 
 Note ahead(double seconds) {
   return {.kind = NoteKind::time_offset,
@@ -73,7 +73,7 @@ TEST(NoteKinds, HaveTheNamesOfAllFaults) {
   }
 }
 
-TEST_F(Notes, OfADatasetAreRowsOfTheStoreAndCounted) {
+TEST_F(StoredNotesTest, OfADatasetAreRowsOfTheStoreAndCounted) {
   known_.datasets.push_back(dataset<tiny::LineOptions>(
       "talks", "", [](const tiny::LineOptions& options, const DataRoot& root) {
         Sequence out = tiny::load_line(options, root);
@@ -93,7 +93,7 @@ TEST_F(Notes, OfADatasetAreRowsOfTheStoreAndCounted) {
   EXPECT_TRUE(texts(counted_notes(file_), Severity::decisive).empty());
 }
 
-TEST_F(Notes, TheStagesOfAMethodAreColumns) {
+TEST_F(StoredNotesTest, TheStagesOfAMethodAreColumns) {
   run(config("straight, {method: shift, by: 1, label: straight + smooth}"));
   const std::vector<CellRow> cells = read_cells(file_);
   EXPECT_EQ(cells[0].parts, (MethodParts{.corrector = "straight"}));

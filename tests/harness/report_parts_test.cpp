@@ -79,7 +79,12 @@ TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
 
 TEST(DefaultMethods, AreTheBaselineTheBestAndTheBestWithoutASmoother) {
   ReportContent content;
-  content.run["methods"] = "raw\traw\na\ta, x=1\nb\tb\na + s\ta, x=1; + s, y=2\n";
+  for (const char* const name : {"raw", "a", "b", "a + s"}) {
+    CellRow& cell = content.cells.emplace_back();
+    cell.method = name;
+    cell.parts.corrector = std::string(name).substr(0, 3);
+  }
+  content.cells.back().parts = {.corrector = "a", .smoother = "s"};
   Comparison& ranked = content.comparisons.emplace_back();
   ranked.options.baseline = "raw";
   for (const char* const name : {"a + s", "b", "a", "raw"}) {
@@ -87,7 +92,7 @@ TEST(DefaultMethods, AreTheBaselineTheBestAndTheBestWithoutASmoother) {
     ranked.methods.back().median = 1.0;
   }
   EXPECT_EQ(default_methods(content), (std::vector<std::string>{"raw", "a + s", "b"}));
-  content.run.clear();  // no chains
+  content.cells.clear();  // no chains
   EXPECT_EQ(default_methods(content), (std::vector<std::string>{"raw", "a + s", "b", "a"}));
 }
 
