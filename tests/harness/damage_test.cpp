@@ -214,6 +214,29 @@ TEST_F(Damage, ADescriptionIsRejectedByItsRowAndWrittenAgain) {
   EXPECT_EQ(read_provenance(file_).at("commit"), "decaf");
 }
 
+TEST_F(Damage, NotesOfASequenceAreNeitherChangedNorLost) {
+  known_.datasets.push_back(dataset<tiny::LineOptions>(
+      "talks", "", [](const tiny::LineOptions& options, const DataRoot& root) {
+        Sequence out = tiny::load_line(options, root);
+        out.provenance.notes = {"skipped 3 rows", "sorted 2 rows"};
+        return out;
+      }));
+  const std::string text =
+      "datasets: [{dataset: talks, label: t}, {dataset: line, label: l}]\nmethods: [straight]\n"
+      "metrics: [ate]\n";
+  run(text);
+  const std::string sound = read_all(file_);
+  for (const char* const damage : {"UPDATE sequence_note SET text = 'x' WHERE number = 1",
+                                   "UPDATE sequence_note SET notes_key = 'x' WHERE number = 1",
+                                   "DELETE FROM sequence_note WHERE number = 1"}) {
+    put(sound);
+    change(damage);
+    EXPECT_NE(refusal(), "") << damage;
+    EXPECT_EQ(run(text).cells, Labels{"t / straight"}) << damage;
+    EXPECT_EQ(read_notes(file_).notes.size(), 4u) << damage;
+  }
+}
+
 TEST_F(Damage, ADamagedStoreIsNotMerged) {
   run(kUsual);
   change("UPDATE trace SET samples = zeroblob(length(samples)) WHERE cell = 1");

@@ -81,6 +81,7 @@ void CellWriter::write(const CellResult& result, CellKeys& keys) {
   } catch (...) {
     definitions_.clear();  // rolled back
     sequences_.clear();
+    notes_.clear();
     throw;
   }
 }
@@ -129,6 +130,24 @@ void CellWriter::write_report(std::int64_t id, const CellResult& result) {
   }
 }
 
+std::string CellWriter::write_notes(const std::vector<Note>& notes) {
+  if (notes.empty()) return "";
+  Fields all;
+  for (const Note& each : notes) {
+    bind_note(each, text(each), [&](const auto&... values) { (all.add(values), ...); });
+  }
+  const std::string key = all.hashed();
+  if (!notes_.insert(key).second) return key;
+  Statement row = insert_into(database_, "sequence_note", "INSERT OR REPLACE");
+  std::int64_t number = 0;
+  for (const Note& each : notes) {
+    bind_note(each, text(each), [&](const auto&... values) {
+      row.bind_hashed(key, number++, values...).run();
+    });
+  }
+  return key;
+}
+
 void CellWriter::write_note(std::int64_t id, std::int64_t number, const Note& note) {
   bind_note(
       note, text(note), [&](const auto&... values) { note_.bind(id, number, values...).run(); });
@@ -160,6 +179,7 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   row.why = result.why;
   cell_.bind(nullptr, cell.index, keys.key(cell, metadata.inputs), keys.build());
   cell_.bind(keys.sequence_key(cell, metadata.inputs), provenance_key_);
+  cell_.bind(write_notes(metadata.notes), metadata.notes.size());
   fields(row, [&](const CellColumn&, const auto& value) { bind_field(cell_, value); });
   cell_.bind(std::ranges::count_if(result.scores, is_failure, &ScoreResult::status));
   cell_.bind(result.scores.size(), 0, 0).run();  // see set_hashes()
@@ -206,14 +226,6 @@ void CellWriter::write_metadata(const Cell& cell,
   std::int64_t number = 0;
   for (const InputFile& file : metadata.inputs) {
     input.bind_hashed(sequence_key, number++, file.option, file.path, file.bytes, file.hash).run();
-  }
-  database_.prepare("DELETE FROM sequence_note WHERE sequence_key = ?").bind(sequence_key).run();
-  Statement note = insert_into(database_, "sequence_note");
-  number = 0;
-  for (const Note& each : metadata.notes) {
-    bind_note(each, text(each), [&](const auto&... values) {
-      note.bind_hashed(sequence_key, number++, values...).run();
-    });
   }
   const SequenceSize& size = metadata.size;
   insert_into(database_, "sequence", "INSERT OR REPLACE")

@@ -28,6 +28,8 @@ class CellWriter {
   std::int64_t write_cell(const CellResult& result, CellKeys& keys);
   void write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep);
   void write_report(std::int64_t id, const CellResult& result);
+  /// Returns the key of their rows.
+  std::string write_notes(const std::vector<Note>& notes);
   void write_note(std::int64_t id, std::int64_t number, const Note& note);
   void write_trace(std::int64_t id, const CellTrace& trace);
   std::int64_t definition_of(const ScoreKind& kind);
@@ -47,6 +49,7 @@ class CellWriter {
   Statement pose_value_;
   std::set<std::int64_t> definitions_;  ///< ids of those that are written
   std::set<std::string> sequences_;     ///< keys of those that are written
+  std::set<std::string> notes_;         ///< likewise
 };
 
 }  // namespace loopbench::harness

@@ -189,12 +189,16 @@ class Merge {
         std::to_string(database_.integer("SELECT coalesce(max(id), 0) FROM main.cell")) + " + ";
     std::string columns = kCellColumns;  // with the new position
     columns.replace(columns.find("position"), 8, "place");
-    for (const char* table : {"input", "sequence_trace", "sequence_note", "sequence"}) {
+    for (const char* table : {"input", "sequence_trace", "sequence"}) {
       const std::string name = table;
       database_.execute("INSERT OR IGNORE INTO main." + name + " SELECT * FROM source." + name +
                         " WHERE sequence_key IN (SELECT sequence_key FROM source.cell WHERE "
                         "position IS NOT NULL)");
     }
+    database_.execute(
+        "INSERT OR IGNORE INTO main.sequence_note SELECT * FROM source.sequence_note WHERE "
+        "notes_key "
+        "IN (SELECT notes_key FROM source.cell WHERE position IS NOT NULL)");
     const std::string rows = "added JOIN source.cell AS cell USING (id)";
     database_.execute("INSERT INTO main.cell SELECT " + offset + "id, " + columns + ", hash FROM " +
                       rows + " ORDER BY id");

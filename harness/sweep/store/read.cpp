@@ -97,9 +97,9 @@ StoredNotes read_notes(const std::filesystem::path& file) {
   const bool is_of_file = config.step() && is_of_files(config.text());
   const std::string columns = std::string(kNoteColumns);
   add("SELECT sequence, repeat, name, " + columns +
-      " FROM (SELECT DISTINCT sequence_key, sequence, repeat, " + (is_of_file ? "method" : "''") +
+      " FROM (SELECT DISTINCT notes_key, sequence, repeat, " + (is_of_file ? "method" : "''") +
       " AS name, min(position) AS first FROM cell WHERE position IS NOT NULL GROUP BY 1, 2, 3, 4) "
-      "JOIN sequence_note USING (sequence_key) ORDER BY first, number");
+      "JOIN sequence_note USING (notes_key) ORDER BY first, number");
   add("SELECT sequence, repeat, method, " + columns +
       " FROM note JOIN cell ON cell.id = note.cell WHERE position IS NOT NULL AND severity <> "
       "'info' ORDER BY position, number");

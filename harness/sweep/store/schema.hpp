@@ -105,6 +105,8 @@ inline const std::string kSchema =
     build TEXT NOT NULL,               -- of the program that computed it
     sequence_key TEXT NOT NULL,        -- key of table sequence
     provenance_key TEXT NOT NULL,      -- key of table provenance
+    notes_key TEXT NOT NULL,           -- key of table sequence_note; '': no notes
+    notes INTEGER NOT NULL,            -- number of its rows there
     )sql" +
     cell_column_definitions() +
     R"sql(failed_scores INTEGER NOT NULL,    -- number of failed scores
@@ -163,13 +165,14 @@ inline const std::string kSchema =
     remedy_value TEXT NOT NULL,
     detail TEXT NOT NULL,              -- words of a dataset or method; evidence of a finding
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
-  CREATE TABLE sequence_note (         -- of the input of a sequence
-    sequence_key TEXT NOT NULL, number INTEGER NOT NULL,
+  CREATE TABLE sequence_note (         -- of the input of cells under their protocols
+    notes_key TEXT NOT NULL,           -- hash of the notes, which cells share
+    number INTEGER NOT NULL,
     text TEXT NOT NULL, kind TEXT NOT NULL, severity TEXT NOT NULL, subject TEXT NOT NULL,
     numbers TEXT NOT NULL, remedy_option TEXT NOT NULL, remedy_value TEXT NOT NULL,
     detail TEXT NOT NULL,
     row_hash INTEGER NOT NULL,
-    PRIMARY KEY (sequence_key, number)) WITHOUT ROWID;
+    PRIMARY KEY (notes_key, number)) WITHOUT ROWID;
   CREATE TABLE section (               -- sections of the path
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
     kind TEXT NOT NULL,                -- segment, window, ...
@@ -220,8 +223,8 @@ inline constexpr CellTable kCellTables[] = {{kScoreTable},
 
 /// Columns of the table cell between `id` and `hash`.
 inline const std::string kCellColumns =
-    "position, key, build, cell.sequence_key, provenance_key, " + cell_column_names() +
-    ", failed_scores, scores, trace_hash";
+    "position, key, build, cell.sequence_key, provenance_key, notes_key, notes, " +
+    cell_column_names() + ", failed_scores, scores, trace_hash";
 
 /// A cell's row and that of its sequence, which `hash` covers.
 inline constexpr const char* kCellsWithSequences = "cell LEFT JOIN sequence USING (sequence_key)";
@@ -237,7 +240,7 @@ struct SharedTable {
 inline constexpr SharedTable kRunTable{"run", "key"};
 inline constexpr SharedTable kProvenanceTable{"provenance", "provenance_key"};
 inline constexpr SharedTable kInputTable{"input", "sequence_key"};
-inline constexpr SharedTable kSequenceNoteTable{"sequence_note", "sequence_key"};
+inline constexpr SharedTable kSequenceNoteTable{"sequence_note", "notes_key"};
 inline constexpr SharedTable kSequenceTraceTable{"sequence_trace", "sequence_key"};
 
 }  // namespace loopbench::harness

@@ -1,6 +1,7 @@
 #include "harness/sweep/store/stored_cells.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <span>
 #include <string_view>
@@ -125,6 +126,21 @@ std::uint64_t add_rows(Database& database, std::uint64_t hash, std::int64_t id, 
   return hash;
 }
 
+/// Number of rows of each list of notes, without lists that have a damaged row.
+std::map<std::string, std::int64_t> sizes_of_notes(Database& database) {
+  std::map<std::string, std::int64_t> out;
+  Statement row =
+      database.prepare("SELECT notes_key, count(*) FROM sequence_note GROUP BY notes_key");
+  while (row.step()) {
+    std::string key;
+    std::int64_t count = 0;
+    row.read(key, count);
+    out.emplace(key, count);
+  }
+  for (const std::string& key : damaged_rows(database, kSequenceNoteTable)) out.erase(key);
+  return out;
+}
+
 void read_field(Statement& row, Status& value) {
   value = from_text<Status>(row.text()).value_or(Status::failed);
 }
@@ -143,7 +159,7 @@ std::int64_t written_cells(Database& database) {
 std::vector<StoredCell> read_stored_cells(Database& database) {
   const std::set<std::string> damaged_provenance = damaged_rows(database, kProvenanceTable);
   const std::set<std::string> damaged_inputs = damaged_rows(database, kInputTable);
-  const std::set<std::string> damaged_notes = damaged_rows(database, kSequenceNoteTable);
+  std::map<std::string, std::int64_t> sizes = sizes_of_notes(database);
   std::vector<StoredCell> out;
   std::vector<std::uint64_t> hashes;
   Statement row = database.prepare(
@@ -157,10 +173,14 @@ std::vector<StoredCell> read_stored_cells(Database& database) {
     std::optional<std::int64_t> position;
     row.read(c.id, c.hash, c.keyframes, c.closure_count, c.content, c.group);
     row.read(position, c.key, c.build, c.sequence_key, provenance_key);
+    std::string notes_key;
+    std::int64_t notes = 0;
+    row.read(notes_key, notes);
     fields(c, [&](const CellColumn&, auto& value) { read_field(row, value); });
     row.read(c.failed_scores, c.scores, c.trace_hash);
     c.intact = !damaged_provenance.contains(provenance_key) &&
-               !damaged_inputs.contains(c.sequence_key) && !damaged_notes.contains(c.sequence_key);
+               !damaged_inputs.contains(c.sequence_key) &&
+               notes == (notes_key.empty() ? 0 : sizes[notes_key]);
     c.placed = position.has_value();
     c.position = position.value_or(0);
     out.push_back(c);
