@@ -1,11 +1,11 @@
 /// Absolute position measurements: surveyed control points, GNSS, a total station.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "datasets/core/factorisations.hpp"
 #include "datasets/core/se3.hpp"
 #include "datasets/core/trajectory.hpp"
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "datasets/core/rotation_between.hpp"
 #include "datasets/core/trajectory.hpp"
 
 namespace loopbench {
@@ -117,7 +118,7 @@ inline Pose moved_to_plane(Pose pose, const MotionPlane& plane, const Vector3& o
   pose.translation -= plane.in_world * plane.in_world.dot(pose.translation - origin);
   if (!has_rotation(pose)) return pose;
   const Vector3 normal = pose.rotation * plane.in_body;
-  pose.rotation = Rotation::FromTwoVectors(normal, plane.in_world) * pose.rotation;
+  pose.rotation = rotation_between(normal, plane.in_world) * pose.rotation;
   return normalized(pose);
 }
 

@@ -1,7 +1,6 @@
 /// Input of a method: keyframes, odometry edges, loop closures and anchors, without the reference.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "datasets/core/anchor.hpp"
+#include "datasets/core/factorisations.hpp"
 #include "datasets/core/params.hpp"
 #include "datasets/core/se3.hpp"
 #include "datasets/core/trajectory.hpp"

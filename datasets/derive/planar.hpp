@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "datasets/core/plane.hpp"
+#include "datasets/core/rotation_between.hpp"
 #include "datasets/core/sequence.hpp"
 
 namespace loopbench {
@@ -34,7 +35,7 @@ struct PlanarChoice {
   std::string note;  ///< what was chosen and why; empty: nothing is planar
 
   /// Rotation of the body that makes the normal its z axis.
-  Rotation body_from_plane() const { return Rotation::FromTwoVectors(Vector3::UnitZ(), normal); }
+  Rotation body_from_plane() const { return rotation_between(Vector3::UnitZ(), normal); }
 };
 
 /// `automatic`: planar if all parts are in planes with one normal in the body, within rounding.

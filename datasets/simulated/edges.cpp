@@ -1,10 +1,10 @@
 #include "datasets/simulated/edges.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <numeric>
 #include <tuple>
 
+#include "datasets/core/factorisations.hpp"
 #include "datasets/noise/random.hpp"
 
 namespace loopbench {
@@ -43,7 +43,7 @@ Matrix6 isotropic(double sigma_t, double sigma_r) {
 }
 
 Matrix6 inverted(const Matrix6& covariance) {
-  const Matrix6 inverse = covariance.inverse();
+  const Matrix6 inverse = inverse_of(covariance);
   return 0.5 * (inverse + inverse.transpose());
 }
 

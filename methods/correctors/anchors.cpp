@@ -1,9 +1,9 @@
 #include "methods/correctors/anchors.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 
+#include "datasets/core/align_points.hpp"
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/shares.hpp"
 
@@ -96,11 +96,11 @@ Pose UsedAnchors::alignment(const Trajectory& poses) const {
   Vector3 t = Vector3::Zero();
   if (planar) {
     const Eigen::Matrix2Xd here = from.topRows<2>(), there = to.topRows<2>();
-    const Matrix3 motion = Eigen::umeyama(here, there, false);
+    const Matrix3 motion = align_points(here, there, false);
     R.topLeftCorner<2, 2>() = motion.topLeftCorner<2, 2>();
     t.head<2>() = motion.topRightCorner<2, 1>();
   } else {
-    const Eigen::Matrix4d motion = Eigen::umeyama(from, to, false);
+    const Eigen::Matrix4d motion = align_points(from, to, false);
     R = motion.topLeftCorner<3, 3>();
     t = motion.topRightCorner<3, 1>();
   }

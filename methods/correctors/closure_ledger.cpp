@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "datasets/core/closure_places.hpp"
+#include "datasets/core/factorisations.hpp"
 #include "datasets/core/upper_median.hpp"
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/looped_chain.hpp"
@@ -119,7 +120,7 @@ Eigen::MatrixXd add_cost_drops(const JointSolution& joint, ClosureLedger& ledger
   Eigen::MatrixXd changes(joint.half.rows(), static_cast<Index>(ledger.rows.size()));
   for (std::size_t k = 0; k < ledger.rows.size(); ++k) {
     const auto columns = joint.half.middleCols<6>(static_cast<Index>(6 * k));
-    const Matrix6 covariance = Matrix6(columns.transpose() * columns).inverse();
+    const Matrix6 covariance = inverse_of(columns.transpose() * columns);
     const Twist residual = covariance * of_closure(joint.lambda, k);
     ledger.rows[k].cost_drop = residual.dot(of_closure(joint.lambda, k));
     changes.col(static_cast<Index>(k)) = -columns * residual;

@@ -1,9 +1,9 @@
 #include "methods/correctors/consistency.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <bit>
 
+#include "datasets/core/factorisations.hpp"
 #include "methods/correctors/plausibility.hpp"
 
 namespace loopbench::methods {
@@ -19,7 +19,7 @@ class CheckedChain {
     for (const Edge& edge : problem.odometry) {
       poses_.push_back(normalized(poses_.back() * edge.from_from_to));
       const Matrix6 B = adjoint(poses_.back());
-      const Matrix6 S = edge.information.inverse();
+      const Matrix6 S = inverse_of(edge.information);
       noise_.push_back(noise_.back() + B * S * B.transpose());
     }
   }
@@ -46,7 +46,7 @@ class CheckedChain {
     const Matrix6 only_ac = noise_[ac_end] - noise_[ac_begin] - shared;
     const Matrix6 only_db = noise_[db_end] - noise_[db_begin] - shared;
     const Matrix6 D = adjoint(d_from_b.inverse());
-    out.covariance = k.information.inverse() + D * l.information.inverse() * D.transpose() +
+    out.covariance = inverse_of(k.information) + D * inverse_of(l.information) * D.transpose() +
                      G * only_ac * G.transpose() + H * only_db * H.transpose() +
                      M * shared * M.transpose();
     return out;

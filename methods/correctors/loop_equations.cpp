@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "datasets/core/factorisations.hpp"
+
 namespace loopbench::methods {
 namespace {
 
@@ -32,7 +34,7 @@ Matrix6 covariance_in_plane(Matrix6 information) {
   };
   clear(information);
   information.diagonal() = diagonal;
-  Matrix6 out = information.inverse();
+  Matrix6 out = inverse_of(information);
   clear(out);
   return out;
 }
@@ -144,11 +146,11 @@ NoiseModel stated_noise_model(const Problem& problem) {
   for (const Edge& edge : problem.odometry) {
     out.information.push_back(edge.information);
     out.covariance.push_back(problem.planar ? covariance_in_plane(edge.information)
-                                            : edge.information.inverse());
+                                            : inverse_of(edge.information));
   }
   for (const Edge& loop : problem.closures) {
     out.closure_information.push_back(loop.information);
-    out.closure_covariance.push_back(loop.information.inverse());
+    out.closure_covariance.push_back(inverse_of(loop.information));
   }
   return out;
 }

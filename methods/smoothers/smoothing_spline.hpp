@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "datasets/core/factorisations.hpp"
 #include "datasets/core/knot_curve.hpp"
 #include "methods/method.hpp"
 #include "methods/smoothers/penalised/reinsch.hpp"
@@ -120,7 +121,7 @@ inline Misfit misfit(const std::vector<Edge>& odometry,
     const Rotation body_from_world = rotations[from].conjugate();
     const Vector3 step = body_from_world * (points[to] - points[from]);
     const double angle = angle_between(measured.rotation, body_from_world * rotations[to]);
-    const Twist variances = information.inverse().diagonal();
+    const Twist variances = inverse_of(information).diagonal();
     out.translation += (measured.translation - step).squaredNorm() / variances.head<3>().sum();
     out.rotation += angle * angle / variances.tail<3>().sum();
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "datasets/core/parallel.hpp"
+#include "datasets/core/rotation_between.hpp"
 #include "datasets/core/trajectory.hpp"
 
 namespace loopbench::metrics {
@@ -189,7 +190,7 @@ struct PlaneRotation {
   double trace = 0.0;
 
   PlaneRotation(const Matrix3& moments, const Vector3& from, const Vector3& n) {
-    const Rotation upright = Rotation::FromTwoVectors(from, n);
+    const Rotation upright = rotation_between(from, n);
     const Matrix3 cross = moments * upright.toRotationMatrix().transpose();
     const double cosine = cross.trace() - n.dot(cross * n);
     const double sine = n.dot(

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -76,7 +75,7 @@ RotationFit fit_rotation(const std::vector<RelativePosePair>& pairs) {
   }
   // Displacements also depend on the unknown lever arm: use them only if all rotations share an
   // axis.
-  const Vector3 sizes_of_axes = Eigen::JacobiSVD<Matrix3>(rotations).singularValues();
+  const Vector3 sizes_of_axes = singular_values(rotations);
   const bool about_one_axis = sizes_of_axes[1] <= kSecondAxis * sizes_of_axes[0];
   const Rotation rotation = rotation_of(about_one_axis ? rotations + translations : rotations);
   const double before = difference(pairs, sizes, Rotation::Identity());

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "datasets/core/align_points.hpp"
 #include "datasets/core/closest_rotation.hpp"
 #include "metrics/alignment/hand_eye.hpp"
 #include "metrics/numerics/angle.hpp"
@@ -47,8 +48,11 @@ bool is_line(const Trajectory& list) {
   constexpr double kLeastWidth = 0.03;  // over the length; a corridor's is that of its noise
   Eigen::Matrix3Xd centred = positions(list);
   centred.colwise() -= centred.rowwise().mean().eval();
-  const Vector3 deviations = centred.jacobiSvd().singularValues();
-  return deviations[1] <= kLeastWidth * deviations[0];
+  Matrix3 scatter = Matrix3::Zero();
+  for (const auto& position : centred.colwise()) scatter += position * position.transpose();
+  const Vector3 ascending =
+      Eigen::SelfAdjointEigenSolver<Matrix3>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  return ascending[1] <= kLeastWidth * kLeastWidth * ascending[2];
 }
 
 /// Motions in body frames over short intervals that begin in the part for fits, or for tests.
@@ -143,7 +147,7 @@ double largest_rotation_angle(const Trajectory& poses) {
 }
 
 Eigen::Affine3d similarity(const Paired& poses) {
-  return Eigen::Affine3d(Eigen::umeyama(positions(poses.estimate), positions(poses.reference)));
+  return Eigen::Affine3d(align_points(positions(poses.estimate), positions(poses.reference), true));
 }
 
 double position_error(const Paired& poses, const Eigen::Affine3d& reference_from_estimate) {
@@ -161,7 +165,7 @@ Agreement agreement(const Paired& poses) {
   if (poses.estimate.size() < kFewestCommonPoses) return out;
   const Paired fitted = fitted_part(poses), tested = part_of(poses, false);
   const Eigen::Affine3d rigid(
-      Eigen::umeyama(positions(fitted.estimate), positions(fitted.reference), false));
+      align_points(positions(fitted.estimate), positions(fitted.reference), false));
   out.position = position_error(tested, rigid);
   out.spread = spread_of(tested.reference.size(), [&](std::size_t i) -> const Vector3& {
     return tested.reference[i].world_from_body.translation;

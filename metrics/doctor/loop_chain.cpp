@@ -1,10 +1,10 @@
 #include "metrics/doctor/loop_chain.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
+#include "datasets/core/factorisations.hpp"
 #include "metrics/doctor/sampling.hpp"
 
 namespace loopbench::metrics {
@@ -18,7 +18,7 @@ Matrix6 in_scale(double scale) {
 }
 
 LoopPath path_over(const Edge& edge, const Edge* over, const Chain& chain) {
-  LoopPath out{&edge, over, edge.information.inverse()};
+  LoopPath out{&edge, over, inverse_of(edge.information)};
   if (over == nullptr) {
     out.covariance += chain.covariance(edge.from, edge.to);
     return out;
@@ -27,7 +27,7 @@ LoopPath path_over(const Edge& edge, const Edge* over, const Chain& chain) {
   const Matrix6 to_end = adjoint(last.inverse()),
                 over_to_end = adjoint((over->from_from_to * last).inverse());
   out.covariance += chain.covariance(over->to, edge.to) +
-                    to_end * over->information.inverse() * to_end.transpose() +
+                    to_end * inverse_of(over->information) * to_end.transpose() +
                     over_to_end * chain.covariance(edge.from, over->from) * over_to_end.transpose();
   return out;
 }
@@ -49,7 +49,7 @@ Chain chain_of(const Problem& problem) {
     const ScaledPose& end = out.poses.back();
     const Matrix6 to_first = adjoint(end.pose) * in_scale(end.scale);
     out.covariances.push_back(out.covariances.back() +
-                              to_first * step.information.inverse() * to_first.transpose());
+                              to_first * inverse_of(step.information) * to_first.transpose());
   }
   for (const Edge& closure : problem.closures) out.has_scale |= closure.scale != 1.0;
   return out;

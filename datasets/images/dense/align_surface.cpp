@@ -1,7 +1,7 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/core/factorisations.hpp"
 #include "datasets/images/dense/surface.hpp"
 #include "datasets/images/tracking/camera_pose.hpp"
 
@@ -120,8 +120,7 @@ SurfaceAlignment align_surface(const Surface& surface,
     const Twist from_prior = log_se3(prior.world_from_camera.inverse() * out.world_from_camera);
     out.information = weight * planes.H + prior.information;
     const Twist gradient = weight * planes.g + prior.information * from_prior;
-    const Twist e =
-        -Eigen::LDLT<Matrix6>(out.information + 1e-9 * Matrix6::Identity()).solve(gradient);
+    const Twist e = -Matrix6(out.information + 1e-9 * Matrix6::Identity()).ldlt().solve(gradient);
     if (!e.allFinite() || e.norm() > 1.0) break;
     out.world_from_camera = normalized(out.world_from_camera * exp_se3(e));
     if (step > kWideSteps && e.norm() < 1e-5) break;

@@ -2,9 +2,9 @@
 /// stated covariance.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <vector>
 
+#include "datasets/core/factorisations.hpp"
 #include "datasets/core/problem.hpp"
 #include "datasets/core/upper_median.hpp"
 
@@ -32,7 +32,7 @@ inline std::vector<double> normalised_gaps(const std::vector<Edge>& odometry,
   for (const Edge& edge : odometry) {
     chain.push_back(normalized(chain.back() * edge.from_from_to));
     accumulated.push_back(accumulated.back() +
-                          transformed(chain.back(), edge.information.inverse()));
+                          transformed(chain.back(), inverse_of(edge.information)));
   }
   std::vector<double> out;
   for (const Edge& loop : closures) {
@@ -41,7 +41,8 @@ inline std::vector<double> normalised_gaps(const std::vector<Edge>& odometry,
     const Twist c = log_se3(gap);
     const Matrix6 odometry_covariance =
         transformed(chain[loop.to].inverse(), accumulated[loop.to] - accumulated[loop.from]);
-    const Matrix6 S = odometry_covariance + transformed(gap.inverse(), loop.information.inverse());
+    const Matrix6 S =
+        odometry_covariance + transformed(gap.inverse(), inverse_of(loop.information));
     out.push_back(c.dot(S.ldlt().solve(c)) / 6.0);
   }
   return out;

@@ -1,6 +1,6 @@
-#include <Eigen/Cholesky>
 #include <cmath>
 
+#include "datasets/core/factorisations.hpp"
 #include "datasets/images/tracking/camera_pose.hpp"
 
 namespace loopbench::rgbd {
@@ -67,7 +67,7 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
         H += weight * r.jacobian.transpose() * r.jacobian;
         g += weight * r.jacobian.transpose() * r.value;
       }
-      const Eigen::LDLT<Matrix6> solver(H + 1e-9 * Matrix6::Identity());
+      const Eigen::LDLT<Matrix6> solver(Matrix6(H + 1e-9 * Matrix6::Identity()));
       const Twist e = -solver.solve(g);
       if (!e.allFinite() || e.norm() > 1.0) break;
       out.world_from_camera = normalized(out.world_from_camera * exp_se3(e));
