@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <regex>
 
 #include "datasets/core/error.hpp"
 #include "harness/answers/compare/assertion.hpp"
@@ -18,6 +17,7 @@
 #include "harness/commands/write_output.hpp"
 #include "harness/sweep/catalogue/scratch.hpp"
 #include "harness/sweep/store/merge.hpp"
+#include "harness/sweep/text/pattern.hpp"
 #include "harness/sweep/text/print_error.hpp"
 #include "harness/sweep/text/printable.hpp"
 
@@ -47,7 +47,7 @@ struct CompareArguments {
 /// The metric that was asked for, "ate" without any.
 std::string metric_of(const CompareArguments& arguments) {
   const auto is_chosen = [](const std::string& rule) {
-    return std::regex_search(rule, std::regex("(^|,)(metric|label|score)[=~]"));
+    return Pattern("(^|,)(metric|label|score)[=~]").matches_part(rule);
   };
   if (!arguments.metric.empty()) return arguments.metric;
   return std::ranges::any_of(arguments.where, is_chosen) ? "" : "ate";

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <regex>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -19,15 +19,33 @@ constexpr double kHardly = 0.01, kMostly = 0.5;  // of stamps, or of a duration
 constexpr std::pair<double, std::string_view> kUnits[] = {
     {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-9, "nanoseconds"}};
 
+bool is_small_letter(char c) { return c >= 'a' && c <= 'z'; }
+
+/// Whether the text, in small letters, has the word without a letter before and after it.
+bool has_word(std::string_view text, std::string_view word, bool can_be_last) {
+  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if (at > 0 && is_small_letter(text[at - 1])) continue;
+    if (end < text.size() ? !is_small_letter(text[end]) : can_be_last) return true;
+  }
+  return false;
+}
+
 /// Whether a word of the last two parts of a path names a reference, not one that it is aligned to.
 bool names_truth(const std::string& name) {
-  static const std::regex known(
-      "(^|[^a-z])(groundtruth|truth|gt|reference|vicon0|leica0|mocap)([^a-z]|$)",
-      std::regex::icase);
-  static const std::regex other("(^|[^a-z])(to|vs|with)[^a-z]", std::regex::icase);
+  constexpr std::string_view kKnown[] = {
+      "groundtruth", "truth", "gt", "reference", "vicon0", "leica0", "mocap"};
+  constexpr std::string_view kOther[] = {"to", "vs", "with"};
   const std::filesystem::path path(name);
-  const std::string parts = (path.parent_path().filename() / path.filename()).string();
-  return std::regex_search(parts, known) && !std::regex_search(parts, other);
+  std::string parts = (path.parent_path().filename() / path.filename()).string();
+  for (char& c : parts) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  const auto has = [&](bool can_be_last) {
+    return
+        [&parts, can_be_last](std::string_view word) { return has_word(parts, word, can_be_last); };
+  };
+  return std::ranges::any_of(kKnown, has(true)) && std::ranges::none_of(kOther, has(false));
 }
 
 /// Part of the stamps that are those of poses after multiplication by a factor.

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
-#include <regex>
+#include <string>
+#include <vector>
 
 #include "datasets/core/error.hpp"
 #include "harness/answers/compare/verdict.hpp"
+#include "harness/sweep/text/pattern.hpp"
 #include "harness/sweep/text/suggest.hpp"
 
 namespace loopbench::harness {
@@ -55,20 +57,20 @@ bool is_shown(const Assertion& a, const Comparison& c, const MethodVerdict& m) {
 
 /// Names can contain " is ": the first form counts.
 Assertion parse_assertion(const std::string& text) {
-  static const std::regex kForms(
+  static const Pattern kForms(
       R"((.+?) is (below|not above|not shown to differ from|at least (\d*\.?\d+) % below|)"
       R"(at most (\d*\.?\d+) % above) (.+))");
-  constexpr std::size_t kMost = 10'000;  // a match takes stack for each character
-  std::smatch found;
-  if (text.size() > kMost || !std::regex_match(text, found, kForms)) {
+  const auto found = kForms.groups(text);
+  if (!found) {
     throw InputError(
         "--assert: expected 'A is below B', 'A is at least X % below B', 'A is not above B', "
         "'A is at most X % above B' or 'A is not shown to differ from B', found '" +
         text + "'");
   }
-  const std::string words = found[2];
-  const std::string percent = found[3].str() + found[4].str();
-  Assertion out{.method = found[1], .percent = {}, .baseline = found[5]};
+  const std::vector<std::string>& groups = *found;
+  const std::string& words = groups[1];
+  const std::string percent = groups[2] + groups[3];
+  Assertion out{.method = groups[0], .percent = {}, .baseline = groups[4]};
   if (!words.ends_with("below")) {
     out.relation = words.ends_with("above") ? Assertion::Relation::not_above
                                             : Assertion::Relation::not_different;

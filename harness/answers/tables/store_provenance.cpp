@@ -1,11 +1,11 @@
 #include "harness/answers/tables/store_provenance.hpp"
 
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <sstream>
 
 #include "harness/answers/tables/table.hpp"
 #include "harness/sweep/store/read.hpp"
+#include "harness/sweep/text/pattern.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -48,9 +48,8 @@ std::vector<std::string> provenance_entries(const StoreProvenance& provenance) {
 /// `line` with absolute paths cut to their last two parts: folders of a machine are of no use to
 /// others.
 std::string without_folders(const std::string& line) {
-  static const std::regex kPath(
-      R"((^|[\s"'=:,([{])/[^\s"',)\]}]*/([^\s"',)\]}/]+/[^\s"',)\]}/]+))");
-  return std::regex_replace(line, kPath, "$1$2");
+  static const Pattern kPath(R"((^|[\s"'=:,([{])/[^\s"',)\]}]*/([^\s"',)\]}/]+/[^\s"',)\]}/]+))");
+  return kPath.replaced(line, R"(\1\2)");
 }
 
 ProvenanceJson json_of(const StoreProvenance& provenance) {

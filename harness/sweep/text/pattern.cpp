@@ -40,4 +40,26 @@ bool Pattern::matches(std::string_view text) const {
   return re2::RE2::FullMatch(piece(text), *compiled_);
 }
 
+std::optional<std::vector<std::string>> Pattern::groups(std::string_view text) const {
+  std::vector<re2::StringPiece> found(
+      static_cast<std::size_t>(compiled_->NumberOfCapturingGroups()) + 1);
+  if (!compiled_->Match(piece(text),
+                        0,
+                        text.size(),
+                        re2::RE2::ANCHOR_BOTH,
+                        found.data(),
+                        static_cast<int>(found.size()))) {
+    return std::nullopt;
+  }
+  std::vector<std::string> out;
+  for (const re2::StringPiece& each : found) out.emplace_back(each.data(), each.size());
+  out.erase(out.begin());  // the complete match
+  return out;
+}
+
+std::string Pattern::replaced(std::string text, std::string_view replacement) const {
+  re2::RE2::GlobalReplace(&text, *compiled_, piece(replacement));
+  return text;
+}
+
 }  // namespace loopbench::harness

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace re2 {
 class RE2;
@@ -26,6 +28,10 @@ class Pattern {
   [[nodiscard]] bool matches_part(std::string_view text) const;
   /// Whether it matches the complete text.
   [[nodiscard]] bool matches(std::string_view text) const;
+  /// What the groups match if it matches the complete text; empty texts for unused groups.
+  [[nodiscard]] std::optional<std::vector<std::string>> groups(std::string_view text) const;
+  /// The text with all matches replaced; \1 is the first group.
+  [[nodiscard]] std::string replaced(std::string text, std::string_view replacement) const;
 
  private:
   std::shared_ptr<const re2::RE2> compiled_;
