@@ -1,33 +1,35 @@
 # Functions that define a library or a test.
 
+# loopbench_headers(<name> HEADERS <header>... LINK <library>...)
 # Precompiled headers: parsed once, and clang instantiates the templates that they use once. Sources still
 # include what they use: clang-tidy and header verification build without precompiled headers.
 # In a header of our own: CMake gives its own list of them an old time, so that a new one would build nothing again.
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/empty.cpp CONTENT "")
+function(loopbench_headers name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
+  list(TRANSFORM ARG_HEADERS REPLACE "(.+)" "#include <\\1>\n")
+  list(JOIN ARG_HEADERS "" text)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.hpp CONTENT "${text}" @ONLY)
+  add_library(loopbench_${name} OBJECT ${PROJECT_BINARY_DIR}/empty.cpp)
+  set_target_properties(loopbench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(loopbench_${name} PRIVATE cxx_std_20)
+  target_link_libraries(loopbench_${name} PRIVATE loopbench_warnings fmt::fmt ${ARG_LINK})
+  target_include_directories(loopbench_${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_precompile_headers(loopbench_${name} PRIVATE ${PROJECT_BINARY_DIR}/${name}.hpp)
+endfunction()
 file(GLOB loopbench_core_headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   ${PROJECT_SOURCE_DIR}/datasets/core/*.hpp)
-list(TRANSFORM loopbench_core_headers REPLACE "(.+)" "<\\1>")
-set(loopbench_slow_headers
-  <Eigen/Cholesky> <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <algorithm> <filesystem> <fstream> <functional> <map>
-  <memory> <optional> <set> <sstream> <string> <vector> <fmt/format.h> ${loopbench_core_headers})
-if(LOOPBENCH_PROGRAM)
-  list(APPEND loopbench_slow_headers <nlohmann/json.hpp>)
-endif()
-list(TRANSFORM loopbench_slow_headers REPLACE "(.+)" "#include \\1\n")
-list(JOIN loopbench_slow_headers "" loopbench_slow_headers)
-file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/slow_headers.hpp CONTENT "${loopbench_slow_headers}" @ONLY)
-file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/empty.cpp CONTENT "")
-add_library(loopbench_headers OBJECT ${PROJECT_BINARY_DIR}/empty.cpp)
-set_target_properties(loopbench_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
-target_compile_features(loopbench_headers PRIVATE cxx_std_20)
-target_link_libraries(loopbench_headers PRIVATE
-  loopbench_warnings Eigen3::Eigen fmt::fmt $<TARGET_NAME_IF_EXISTS:nlohmann_json::nlohmann_json>)
-target_include_directories(loopbench_headers PRIVATE ${PROJECT_SOURCE_DIR})
-target_precompile_headers(loopbench_headers PRIVATE ${PROJECT_BINARY_DIR}/slow_headers.hpp)
+set(loopbench_slow_headers Eigen/Cholesky Eigen/Core Eigen/Geometry Eigen/LU algorithm chrono filesystem fstream
+  functional map memory optional set sstream string variant vector fmt/format.h ${loopbench_core_headers})
+loopbench_headers(headers HEADERS ${loopbench_slow_headers} LINK Eigen3::Eigen)
 
-# loopbench_library(<name> FOLDER <dir> [ONLY <regex>] [EXCEPT <regex>] [LINK <public>...] [PRIVATE <hidden>...])
-# Contains every .hpp and .cpp below FOLDER; new files are added automatically.
+# loopbench_library(<name> FOLDER <dir> [ONLY <regex>] [EXCEPT <regex>] [BATCH <n>] [HEADERS <precompiled>]
+#                   [LINK <public>...] [PRIVATE <hidden>...])
+# Contains every .hpp and .cpp below FOLDER; new files are added automatically. A batch of sources that are compiled as
+# one has 10, or n: large ones compile what sources share less often, small ones leave less to compile after a change.
+# Presets with batches of other sizes change n in proportion.
 function(loopbench_library name)
-  cmake_parse_arguments(ARG "" "FOLDER;ONLY;EXCEPT" "LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "FOLDER;ONLY;EXCEPT;BATCH;HEADERS" "LINK;PRIVATE" ${ARGN})
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${ARG_FOLDER}/*.hpp)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${ARG_FOLDER}/*.cpp)
   if(ARG_ONLY)
@@ -43,7 +45,14 @@ function(loopbench_library name)
     add_library(loopbench_${name} STATIC ${sources})
     target_link_libraries(loopbench_${name} PRIVATE
       $<BUILD_INTERFACE:loopbench_warnings> fmt::fmt ${ARG_PRIVATE})
-    target_precompile_headers(loopbench_${name} REUSE_FROM loopbench_headers)
+    if(NOT ARG_HEADERS)
+      set(ARG_HEADERS headers)
+    endif()
+    target_precompile_headers(loopbench_${name} REUSE_FROM loopbench_${ARG_HEADERS})
+    if(ARG_BATCH AND CMAKE_UNITY_BUILD_BATCH_SIZE)
+      math(EXPR batch "(${ARG_BATCH} * ${CMAKE_UNITY_BUILD_BATCH_SIZE} + 9) / 10")
+      set_target_properties(loopbench_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE ${batch})
+    endif()
   else()
     set(scope INTERFACE)
     add_library(loopbench_${name} INTERFACE)

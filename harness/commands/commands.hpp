@@ -18,7 +18,7 @@ inline constexpr int kExitInternal = 3;
 inline constexpr int kExitMissingPart = 4;
 inline constexpr int kExitInterrupted = 130;
 
-/// The callbacks throw InputError and OptionError; main converts them to exit code 2, and
+/// The callbacks throw InputError and OptionError; the program converts them to exit code 2, and
 /// MissingPart to 4.
 void add_run(CLI::App& app, int& exit_code, const Source& source);
 void add_list(CLI::App& app, int& exit_code);

@@ -8,6 +8,7 @@
 
 #include "harness/sweep/catalogue/catalogue.hpp"
 #include "harness/sweep/model/sweep.hpp"
+#include "harness/sweep/run/source.hpp"
 
 namespace loopbench::harness {
 
@@ -25,13 +26,6 @@ std::string build_id(const std::string& code);
 /// "loopbench 1.0.0 (a9736e1dc55d, dirty), GNU 12.2.0, -O3 -DNDEBUG; AMD EPYC, Linux 6.1 x86_64".
 /// From a store's provenance; values that differ between its cells are separated by slashes.
 std::string build_summary(const std::map<std::string, std::string>& provenance);
-
-/// The source that the program was built from, as compiled into the executable.
-struct Source {
-  std::string commit = "unknown";
-  std::string state = "unknown";  ///< clean | dirty | unknown
-  std::string code = "unknown";   ///< hash of the libraries whose code decides the results of cells
-};
 
 /// build_metadata(), commit, state, build, C library, shared libraries, CPU, instruction set,
 /// cores, memory, kernel, the seeds of every seeded dataset and the versions of plugins. Does not
