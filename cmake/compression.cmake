@@ -1,12 +1,13 @@
 # Optional libraries: without those for compressed files and bags, files that need them are rejected with exit code 4.
-# Used in datasets/compressed only. GeographicLib is optional in the same way, for latitudes and longitudes: used in
-# datasets/formats/geodetic.cpp only.
+# GeographicLib is optional in the same way, for latitudes and longitudes. Each part is used in one source: only that
+# one is compiled again after packages are installed.
 add_library(loopbench_compression INTERFACE)
 set(loopbench_compression_flags "")  # of loopbench.pc
-foreach(part "COMPRESSION z zlib.h bz2 bzlib.h zstd zstd.h lz4 lz4frame.h lzma lzma.h"
-        "GEOGRAPHICLIB GeographicLib GeographicLib/LocalCartesian.hpp")
+foreach(part "COMPRESSION datasets/compressed/decompress.cpp z zlib.h bz2 bzlib.h zstd zstd.h lz4 lz4frame.h lzma lzma.h"
+        "GEOGRAPHICLIB datasets/formats/geodetic.cpp GeographicLib GeographicLib/LocalCartesian.hpp")
   separate_arguments(part)
-  list(POP_FRONT part name)
+  list(POP_FRONT part name source)
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   set(libraries "")
   set(includes "")
   set(flags "")
@@ -23,7 +24,7 @@ foreach(part "COMPRESSION z zlib.h bz2 bzlib.h zstd zstd.h lz4 lz4frame.h lzma l
   else()
     target_link_libraries(loopbench_compression INTERFACE ${libraries})
     target_include_directories(loopbench_compression SYSTEM INTERFACE ${includes})
-    target_compile_definitions(loopbench_compression INTERFACE LOOPBENCH_HAS_${name})
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/${source} PROPERTIES COMPILE_DEFINITIONS LOOPBENCH_HAS_${name})
     string(APPEND loopbench_compression_flags "${flags}")
   endif()
 endforeach()

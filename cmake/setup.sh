@@ -6,13 +6,11 @@ packages=(
   clang cmake ninja-build
   libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libxxhash-dev
   libceres-dev
+  zlib1g-dev libbz2-dev libzstd-dev liblz4-dev liblzma-dev  # compressed files and bags
+  libgeographiclib-dev  # latitudes and longitudes
 )
 sandbox_packages=(bubblewrap)  # hides files from external programs; the default comparison has none
 
-# Compressed files and bags; optional: unless all are installed, such files are rejected (exit code 4), and run.sh
-# installs them.
-compression_packages=(zlib1g-dev libbz2-dev libzstd-dev liblz4-dev liblzma-dev)
-geodetic_packages=(libgeographiclib-dev)  # latitudes and longitudes; optional in the same way
 # OpenCV's development packages depend on some 280 others, so run.sh installs them when first needed.
 image_packages=(libstb-dev libopencv-features2d-dev libopencv-calib3d-dev)
 plot_packages=(python3-matplotlib)
@@ -24,10 +22,13 @@ colcon_packages=(colcon)
 package_packages=(g++ dpkg-dev file help2man lintian debootstrap)
 # The compiled module of the Python package is optional: without these it is not built.
 python_packages=(python3-dev python3-numpy pybind11-dev)
-test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev curl
+benchmark_packages=(libbenchmark-dev)
+test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev curl
   python3-scipy python3-yaml python3-matplotlib python3-jsonschema python3-pip)
 # Programs that configs/external compares with; no script installs them.
 external_packages=(mrpt-apps)
+
+installed=()  # by install_missing
 
 # Runs a command; prints its output, to standard error, only if it fails.
 quietly() {
@@ -58,4 +59,5 @@ install_missing() {
   quietly "${as_root[@]}" apt-get -qq update
   quietly "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get -qq install -y --no-install-recommends "${missing[@]}"
+  installed+=("${missing[@]}")
 }
