@@ -18,6 +18,7 @@ while IFS= read -r hit; do
   read -ra words <<<"${line//[\'\"]/}"    # quotes do not matter here: only words are compared
   command=${words[0]:-}
   [[ $command =~ ^[a-z]+$ ]] || continue # './run.sh' alone, or options only
+  [[ $command != benchmark ]] || continue # of run.sh itself
   [[ $command != traj || ! ${words[1]:-} =~ ^[a-z]+$ ]] || command="traj ${words[1]}"
   checked=$((checked + 1))
   read -ra verbs <<<"$command"
