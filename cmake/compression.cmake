@@ -4,7 +4,7 @@
 add_library(loopbench_compression INTERFACE)
 set(loopbench_compression_flags "")  # of loopbench.pc
 foreach(part "COMPRESSION datasets/compressed/decompress.cpp z zlib.h bz2 bzlib.h zstd zstd.h lz4 lz4frame.h lzma lzma.h"
-        "GEOGRAPHICLIB datasets/formats/geodetic.cpp GeographicLib GeographicLib/LocalCartesian.hpp")
+        "GEOGRAPHICLIB datasets/columns/geodetic.cpp GeographicLib GeographicLib/LocalCartesian.hpp")
   separate_arguments(part)
   list(POP_FRONT part name source)
   set_source_files_properties(${PROJECT_SOURCE_DIR}/${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

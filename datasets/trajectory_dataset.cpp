@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "datasets/bags/bag_trajectory.hpp"
+#include "datasets/columns/stamp_unit.hpp"
 #include "datasets/core/disabled_options.hpp"
-#include "datasets/formats/stamp_unit.hpp"
 
 namespace loopbench {
 namespace {

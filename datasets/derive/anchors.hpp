@@ -11,10 +11,10 @@
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/bags/messages.hpp"
+#include "datasets/columns/columns.hpp"
 #include "datasets/core/params.hpp"
 #include "datasets/core/sequence.hpp"
 #include "datasets/derive/poses_at.hpp"
-#include "datasets/formats/columns.hpp"
 
 namespace loopbench {
 

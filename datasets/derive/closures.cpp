@@ -6,11 +6,11 @@
 #include <tuple>
 #include <utility>
 
+#include "datasets/columns/columns.hpp"
+#include "datasets/columns/pose_rules.hpp"
 #include "datasets/derive/odometry.hpp"
-#include "datasets/formats/columns.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/g2o_information.hpp"
-#include "datasets/formats/pose_rules.hpp"
 #include "datasets/noise/random.hpp"
 
 namespace loopbench {

@@ -7,8 +7,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "datasets/columns/columns.hpp"
 #include "datasets/derive/revisits.hpp"
-#include "datasets/formats/columns.hpp"
 #include "datasets/formats/g2o.hpp"
 
 namespace loopbench {

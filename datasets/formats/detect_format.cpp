@@ -9,9 +9,9 @@
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/bags/messages.hpp"
-#include "datasets/formats/columns.hpp"
-#include "datasets/formats/stamp_unit.hpp"
-#include "datasets/formats/stamps.hpp"
+#include "datasets/columns/columns.hpp"
+#include "datasets/columns/stamp_unit.hpp"
+#include "datasets/columns/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {

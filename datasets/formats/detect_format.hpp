@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "datasets/columns/text_file.hpp"
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/formats.hpp"
-#include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
 

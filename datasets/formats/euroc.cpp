@@ -1,8 +1,8 @@
-#include "datasets/formats/columns.hpp"
+#include "datasets/columns/columns.hpp"
+#include "datasets/columns/pose_rules.hpp"
+#include "datasets/columns/stamp_unit.hpp"
+#include "datasets/columns/stamps.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/stamp_unit.hpp"
-#include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "datasets/columns/geodetic.hpp"
 #include "datasets/core/se3.hpp"
 #include "datasets/core/trajectory.hpp"
-#include "datasets/formats/geodetic.hpp"
 
 namespace loopbench {
 

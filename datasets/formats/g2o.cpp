@@ -7,9 +7,9 @@
 #include <string>
 
 #include "datasets/core/error.hpp"
+#include "datasets/files/text_writer.hpp"
 #include "datasets/formats/g2o_information.hpp"
 #include "datasets/formats/g2o_records.hpp"
-#include "datasets/formats/text_writer.hpp"
 
 namespace loopbench {
 namespace {

@@ -9,10 +9,10 @@
 #include <optional>
 #include <string_view>
 
+#include "datasets/columns/columns.hpp"
+#include "datasets/columns/pose_rules.hpp"
+#include "datasets/columns/text_file.hpp"
 #include "datasets/core/anchor.hpp"
-#include "datasets/formats/columns.hpp"
-#include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
 

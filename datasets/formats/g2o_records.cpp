@@ -4,12 +4,12 @@
 #include <string>
 #include <utility>
 
+#include "datasets/columns/columns.hpp"
+#include "datasets/columns/parts.hpp"
+#include "datasets/columns/pose_rules.hpp"
 #include "datasets/core/params.hpp"
-#include "datasets/formats/columns.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/g2o_information.hpp"
-#include "datasets/formats/parts.hpp"
-#include "datasets/formats/pose_rules.hpp"
 
 namespace loopbench {
 namespace {

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "datasets/columns/text_file.hpp"
 #include "datasets/core/problem.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/g2o_priors.hpp"
-#include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
 

@@ -2,12 +2,12 @@
 
 #include <Eigen/LU>
 
-#include "datasets/formats/columns.hpp"
+#include "datasets/columns/columns.hpp"
+#include "datasets/columns/parts.hpp"
+#include "datasets/columns/pose_rules.hpp"
+#include "datasets/columns/stamp_unit.hpp"
+#include "datasets/columns/stamps.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/parts.hpp"
-#include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/stamp_unit.hpp"
-#include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {

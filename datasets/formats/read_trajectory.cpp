@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "datasets/bags/bag_trajectory.hpp"
+#include "datasets/columns/columns.hpp"
+#include "datasets/columns/pose_rules.hpp"
+#include "datasets/columns/stamp_unit.hpp"
+#include "datasets/columns/stamps.hpp"
 #include "datasets/core/fields.hpp"
-#include "datasets/formats/columns.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/g2o.hpp"
-#include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/stamp_unit.hpp"
-#include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 

@@ -3,11 +3,11 @@
 
 #include <optional>
 
+#include "datasets/columns/csv_header.hpp"
+#include "datasets/columns/stamps.hpp"
+#include "datasets/columns/text_file.hpp"
 #include "datasets/core/pose.hpp"
-#include "datasets/formats/csv_header.hpp"
 #include "datasets/formats/formats.hpp"
-#include "datasets/formats/stamps.hpp"
-#include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
 

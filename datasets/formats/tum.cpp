@@ -1,9 +1,9 @@
-#include "datasets/formats/covariance_columns.hpp"
+#include "datasets/columns/covariance_columns.hpp"
+#include "datasets/columns/parts.hpp"
+#include "datasets/columns/pose_rules.hpp"
+#include "datasets/columns/stamp_unit.hpp"
+#include "datasets/columns/stamps.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/parts.hpp"
-#include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/stamp_unit.hpp"
-#include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "datasets/columns/covariance_columns.hpp"
+#include "datasets/columns/stamps.hpp"
 #include "datasets/core/fields.hpp"
-#include "datasets/formats/covariance_columns.hpp"
+#include "datasets/files/text_writer.hpp"
 #include "datasets/formats/g2o.hpp"
-#include "datasets/formats/stamps.hpp"
-#include "datasets/formats/text_writer.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 
 namespace loopbench {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "datasets/core/fields.hpp"
-#include "datasets/formats/replace_file.hpp"
+#include "datasets/files/replace_file.hpp"
 #include "harness/answers/tables/benchmark_json.hpp"
 #include "harness/answers/tables/record_csv.hpp"
 #include "harness/answers/tables/store_tables.hpp"

@@ -1,4 +1,4 @@
-#include "datasets/formats/covariance_columns.hpp"
+#include "datasets/columns/covariance_columns.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

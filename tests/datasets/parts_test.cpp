@@ -1,5 +1,5 @@
 /// Files large enough to be read by several threads give the same results and errors as small ones.
-#include "datasets/formats/parts.hpp"
+#include "datasets/columns/parts.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

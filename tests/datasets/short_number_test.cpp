@@ -1,5 +1,5 @@
 /// short_number reads what it accepts as std::from_chars does, bit by bit.
-#include "datasets/formats/short_number.hpp"
+#include "datasets/columns/short_number.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Units, digits and order of stamps, frames, and rows that are no poses.
-#include "datasets/formats/stamp_unit.hpp"
+#include "datasets/columns/stamp_unit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "datasets/columns/stamps.hpp"
 #include "datasets/compressed/decompress.hpp"
-#include "datasets/formats/stamps.hpp"
 #include "tests/datasets/scratch.hpp"
 
 namespace loopbench::trajectory_file_test {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "datasets/core/error.hpp"
-#include "datasets/formats/regular_file.hpp"
+#include "datasets/files/regular_file.hpp"
 
 namespace loopbench::rgbd {
 namespace {

@@ -1,8 +1,8 @@
 // Source: Shotton et al. 2013, README of the 7-Scenes dataset.
 #include <fmt/format.h>
 
-#include "datasets/formats/columns.hpp"
-#include "datasets/formats/text_file.hpp"
+#include "datasets/columns/columns.hpp"
+#include "datasets/columns/text_file.hpp"
 #include "datasets/images/folder/layouts.hpp"
 #include "datasets/images/folder/register_depth.hpp"
 

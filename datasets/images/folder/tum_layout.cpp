@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "datasets/formats/columns.hpp"
+#include "datasets/columns/columns.hpp"
+#include "datasets/columns/text_file.hpp"
 #include "datasets/formats/formats.hpp"
-#include "datasets/formats/text_file.hpp"
 #include "datasets/images/folder/layouts.hpp"
 
 namespace loopbench::rgbd {

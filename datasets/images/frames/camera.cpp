@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "datasets/formats/text_file.hpp"
+#include "datasets/columns/text_file.hpp"
 
 namespace loopbench::rgbd {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
-#include "datasets/formats/regular_file.hpp"
+#include "datasets/files/regular_file.hpp"
 #include "harness/answers/gate/baseline.hpp"
 #include "harness/sweep/model/where.hpp"
 #include "harness/sweep/text/suggest.hpp"

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "datasets/columns/covariance_columns.hpp"
+#include "datasets/columns/stamp_unit.hpp"
 #include "datasets/core/covariance.hpp"
 #include "datasets/core/fields.hpp"
-#include "datasets/formats/covariance_columns.hpp"
-#include "datasets/formats/stamp_unit.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "harness/commands/files/trajectory_selection.hpp"
 #include "metrics/protocols/protocols.hpp"

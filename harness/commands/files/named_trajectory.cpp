@@ -7,8 +7,8 @@
 #include <set>
 
 #include "datasets/bags/bag_trajectory.hpp"
+#include "datasets/columns/stamp_unit.hpp"
 #include "datasets/core/fields.hpp"
-#include "datasets/formats/stamp_unit.hpp"
 #include "harness/sweep/process/write_file.hpp"
 #include "harness/sweep/text/counted.hpp"
 #include "harness/sweep/text/printable.hpp"

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "datasets/core/error.hpp"
-#include "datasets/formats/replace_file.hpp"
+#include "datasets/files/replace_file.hpp"
 
 namespace loopbench::harness {
 namespace {

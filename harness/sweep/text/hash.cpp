@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "datasets/formats/regular_file.hpp"
+#include "datasets/files/regular_file.hpp"
 
 namespace loopbench::harness {
 

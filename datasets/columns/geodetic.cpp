@@ -1,4 +1,4 @@
-#include "datasets/formats/geodetic.hpp"
+#include "datasets/columns/geodetic.hpp"
 
 #include <fmt/format.h>
 

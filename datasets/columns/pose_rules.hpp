@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "datasets/columns/text_file.hpp"
 #include "datasets/core/trajectory.hpp"
 #include "datasets/formats/formats.hpp"
-#include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
 

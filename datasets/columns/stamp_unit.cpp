@@ -1,4 +1,4 @@
-#include "datasets/formats/stamp_unit.hpp"
+#include "datasets/columns/stamp_unit.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <iterator>
 #include <string>
 
+#include "datasets/columns/csv_header.hpp"
+#include "datasets/columns/stamps.hpp"
 #include "datasets/core/fields.hpp"
 #include "datasets/core/upper_median.hpp"
-#include "datasets/formats/csv_header.hpp"
-#include "datasets/formats/stamps.hpp"
 
 namespace loopbench {
 namespace {

@@ -1,4 +1,4 @@
-#include "datasets/formats/columns.hpp"
+#include "datasets/columns/columns.hpp"
 
 #include <fmt/format.h>
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "datasets/columns/columns.hpp"
+#include "datasets/columns/text_file.hpp"
 #include "datasets/core/se3.hpp"
-#include "datasets/formats/columns.hpp"
-#include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
 

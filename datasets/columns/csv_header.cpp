@@ -1,12 +1,12 @@
-#include "datasets/formats/csv_header.hpp"
+#include "datasets/columns/csv_header.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
-#include "datasets/formats/covariance_columns.hpp"
-#include "datasets/formats/csv_names.hpp"
+#include "datasets/columns/covariance_columns.hpp"
+#include "datasets/columns/csv_names.hpp"
 
 namespace loopbench {
 namespace {

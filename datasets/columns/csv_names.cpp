@@ -1,4 +1,4 @@
-#include "datasets/formats/csv_names.hpp"
+#include "datasets/columns/csv_names.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "datasets/formats/regular_file.hpp"
+#include "datasets/files/regular_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,15 +1,15 @@
-#include "datasets/formats/covariance_columns.hpp"
+#include "datasets/columns/covariance_columns.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <sstream>
 #include <string>
 
+#include "datasets/columns/stamp_unit.hpp"
+#include "datasets/columns/stamps.hpp"
 #include "datasets/core/covariance.hpp"
 #include "datasets/core/params.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/stamp_unit.hpp"
-#include "datasets/formats/stamps.hpp"
 
 namespace loopbench {
 namespace {

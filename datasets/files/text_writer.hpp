@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "datasets/core/error.hpp"
-#include "datasets/formats/replace_file.hpp"
+#include "datasets/files/replace_file.hpp"
 
 namespace loopbench {
 

@@ -1,4 +1,4 @@
-#include "datasets/formats/stamps.hpp"
+#include "datasets/columns/stamps.hpp"
 
 #include <cctype>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "datasets/formats/text_file.hpp"
+#include "datasets/columns/text_file.hpp"
 
 #include <sys/types.h>
 

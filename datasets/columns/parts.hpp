@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "datasets/columns/text_file.hpp"
 #include "datasets/core/parallel.hpp"
-#include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
 

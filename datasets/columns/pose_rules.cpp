@@ -1,4 +1,4 @@
-#include "datasets/formats/pose_rules.hpp"
+#include "datasets/columns/pose_rules.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "datasets/columns/csv_header.hpp"
+#include "datasets/columns/stamps.hpp"
 #include "datasets/core/params.hpp"
-#include "datasets/formats/csv_header.hpp"
-#include "datasets/formats/stamps.hpp"
 
 namespace loopbench {
 

@@ -1,4 +1,4 @@
-#include "datasets/formats/replace_file.hpp"
+#include "datasets/files/replace_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <system_error>
 
+#include "datasets/columns/short_number.hpp"
+#include "datasets/columns/stamps.hpp"
+#include "datasets/columns/text_file.hpp"
 #include "datasets/formats/formats.hpp"
-#include "datasets/formats/short_number.hpp"
-#include "datasets/formats/stamps.hpp"
-#include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
 
