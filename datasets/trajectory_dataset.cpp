@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <numbers>
-#include <optional>
 
 #include "datasets/bags/bag_trajectory.hpp"
-#include "datasets/columns/stamp_unit.hpp"
-#include "datasets/core/disabled_options.hpp"
+#include "datasets/trajectory_inputs.hpp"
 
 namespace loopbench {
 namespace {
@@ -74,37 +72,26 @@ std::string closure_provenance(const TrajectoryOptions& o, std::size_t count) {
   return "";
 }
 
-/// Rejects options that need the rotations of a reference without any.
-void require_no_rotations(const TrajectoryOptions& o) {
-  const std::string why = o.reference + " has positions without rotation";
-  require_option(o.closures != ClosureSource::reference,
-                 "closures.source",
-                 "reference needs rotations, but " + why);
-  require_option(!has_offset(o.reference_body),
-                 "reference_body",
-                 "needs rotations, but " + why + "; `eval --ref-body` moves the estimates instead");
-}
-
-/// A stated offset or period is accepted instead of stamps.
-void require_common_time(const FileClock& estimate,
-                         const FileClock& other,
-                         const TrajectoryOptions& o) {
-  const bool is_mixed = (estimate.clock == Clock::stamps) != (other.clock == Clock::stamps);
-  if (o.offset != 0.0 || (is_mixed && o.period != TrajectoryOptions{}.period)) return;
-  const std::string why = why_no_common_time(estimate, other);
-  if (!why.empty()) throw InputError(why);
-}
-
 std::uint64_t identity(const TrajectoryOptions& o, const Trajectory& keyframes) {
   if (!o.stream.empty()) return noise_identity(o.stream);
   return noise_identity(identity_text("trajectory", o, is_data_option), keyframes);
 }
 
-bool same_bits(const Trajectory& a, const Trajectory& b) {
-  return std::ranges::equal(a, b, [](const StampedPose& x, const StampedPose& y) {
-    return x.stamp == y.stamp && x.world_from_body.translation == y.world_from_body.translation &&
-           x.world_from_body.rotation.coeffs() == y.world_from_body.rotation.coeffs();
-  });
+/// Name and provenance of a sequence with its closures.
+void describe(const TrajectoryInputs& in,
+              const TrajectoryOptions& o,
+              std::size_t false_closures,
+              Sequence& sequence) {
+  sequence.name = o.name.empty() ? name_of(o.estimate) : o.name;
+  Provenance& provenance = sequence.provenance;
+  provenance.sensor = o.sensor;
+  provenance.licence = o.licence;
+  provenance.body_from_reference = pose_of(o.reference_body);
+  const std::size_t all = sequence.problem.closures.size();
+  provenance.closures = closure_provenance(o, all) +
+                        (in.run_is_reference ? ", which is the reference" : "") +
+                        false_closures_text(o.false_closures, false_closures, all);
+  provenance.oracle_closures = o.closures == ClosureSource::reference || in.run_is_reference;
 }
 
 PlanarParts parts_of(TrajectoryInputs& in) {
@@ -167,92 +154,18 @@ Problem derive_problem(const TrajectoryInputs& in,
 Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   check_combination(o, {});
   Sequence sequence;
-  const auto open = [&](const std::string& path, const std::string& option) {
-    return sequence.provenance.inputs.emplace_back(InputPath{root.find(file_of(path)), option})
-        .path;
-  };
-  ReadOptions options{
-      .period = o.period, .repeats = o.repeats, .sort = o.sort, .drop_invalid = o.drop_invalid};
-  std::optional<std::filesystem::path> times;
-  if (!o.times.empty()) times = open(o.times, "times");
-  std::optional<FileClock> first;  // the estimate
-  TrajectoryInputs in;
-  const auto read = [&](const std::string& path, const std::string& option, Format format) {
-    if (path.empty()) return Trajectory();
-    options.format = format;
-    options.positions = option == "reference";
-    std::filesystem::path file = open(path, option);
-    if (names_bag(path)) file = to_text(BagName{file.string(), bag_name(path).topic});
-    ReadFindings findings;
-    options.findings = &findings;
-    options.stamp_unit = o.stamp_unit;
-    options.times.reset();
-    if (times && (names_bag(path) || takes_times(file, detect_format(file)))) options.times = times;
-    Trajectory out = read_trajectory(file, options);
-    if (first) options.stamp_unit = better_unit(out, findings, in.estimate);
-    if (first && options.stamp_unit != StampUnit::automatic) {
-      findings = {};
-      out = read_trajectory(file, options);
-    }
-    require_clear_unit(path, findings);
-    const FileClock clock{path, findings.clock, out.size() + findings.invalid};
-    if (!first) first = clock;
-    require_common_time(*first, clock, o);
-    std::vector<std::string>& notes = sequence.provenance.notes;
-    for (const std::string& note : reading_notes(findings)) notes.push_back(path + ": " + note);
-    if (findings.origin) notes.push_back(path + ": " + to_text(*findings.origin));
-    if (!findings.damage.empty()) notes.push_back(path + ": " + findings.damage);
-    return out;
-  };
-
-  in.estimate = read(o.estimate, "estimate", o.format);
-  in.frames = read(o.frames, "frames", o.format);
-  in.reference = read(o.reference, "reference", o.reference_format);
-  for (StampedPose& pose : in.reference) pose.stamp -= o.offset;
-  if (!o.reference.empty()) sequence.provenance.reference = sequence.provenance.inputs.back().path;
-  if (lacks_rotations(in.reference)) require_no_rotations(o);
-  if (o.closures == ClosureSource::estimate) {
-    in.other_run = read(o.closures_file, "closures.file", o.format);
-  }
-  const bool run_is_reference = o.closures == ClosureSource::estimate && !in.reference.empty() &&
-                                same_bits(in.other_run, in.reference);
-  in.reference = to_estimate_body(std::move(in.reference), o.reference_body);
-  if (o.closures == ClosureSource::file) {
-    const std::filesystem::path file = open(o.closures_file, "closures.file");
-    if (file.extension() == ".g2o") {
-      in.graph_closures = read_graph_closures(file, in.estimate);
-    } else {
-      in.closures = read_closure_file(file, o.closures_noise);
-    }
-  }
-
+  TrajectoryInputs in = read_inputs(o, root, sequence.provenance);
   const PlanarChoice plane = choose_planar(o.planar, parts_of(in));
   if (plane.planar) in.normal = plane.normal;
   if (!plane.note.empty()) sequence.provenance.notes.push_back(plane.note);
-
-  sequence.name = o.name.empty() ? name_of(o.estimate) : o.name;
   std::size_t false_closures = 0;
   sequence.problem = derive_problem(in, o, &false_closures);
-  sequence.reference = std::move(in.reference);
-  sequence.provenance.sensor = o.sensor;
-  sequence.provenance.licence = o.licence;
-  sequence.provenance.body_from_reference = pose_of(o.reference_body);
-  const std::size_t all = sequence.problem.closures.size();
-  sequence.provenance.closures = closure_provenance(o, all) +
-                                 (run_is_reference ? ", which is the reference" : "") +
-                                 false_closures_text(o.false_closures, false_closures, all);
-  sequence.provenance.oracle_closures = o.closures == ClosureSource::reference || run_is_reference;
-  if (!o.anchors_file.empty()) {
-    std::filesystem::path file = open(o.anchors_file, "anchors.file");
-    if (names_bag(o.anchors_file)) {
-      file = to_text(BagName{file.string(), bag_name(o.anchors_file).topic});
-    }
-    add_anchors(read_anchor_file(file, o.anchors_sigma),
-                o.anchors_file,
-                in.frames.empty() ? in.estimate : in.frames,
-                o.anchors_max_gap,
-                sequence);
+  if (in.anchors) {
+    const Trajectory& run = in.frames.empty() ? in.estimate : in.frames;
+    add_anchors(*in.anchors, o.anchors_file, run, o.anchors_max_gap, sequence);
   }
+  describe(in, o, false_closures, sequence);
+  sequence.reference = std::move(in.reference);
   if (plane.planar) set_body(sequence, plane.body_from_plane());
   check(sequence.problem, sequence.name);
   check(sequence.reference, sequence.name + ": reference", Rotations::optional);

@@ -202,6 +202,8 @@ struct TrajectoryInputs {
   std::vector<StampedClosure> closures;   ///< for closures.source file
   std::vector<Edge> graph_closures = {};  ///< likewise, if the file is a g2o graph
   std::optional<Vector3> normal = {};     ///< of the plane, in the body; unset: not planar
+  std::optional<AnchorFile> anchors = {};
+  bool run_is_reference = false;  ///< the other run has the poses of the reference
 };
 
 /// Derives a problem from the input files. Endpoints of closures from a closure file always become

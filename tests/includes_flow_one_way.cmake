@@ -12,8 +12,9 @@ set(may_include_harness "datasets|methods|metrics|harness")
 # longest entry that contains it.
 set(order
   "datasets/core"
+  "datasets/files"
   "datasets/compressed datasets/noise"
-  "datasets/bags"
+  "datasets/bags datasets/columns"
   "datasets/dataset datasets/formats"
   "datasets/derive"
   "datasets/simulated"

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "datasets/formats/detect_format.hpp"
-
 namespace loopbench {
 
 InputError Columns::refusal(const char* what, const std::string& why) const {
@@ -14,7 +12,7 @@ InputError Columns::refusal(const char* what, const std::string& why) const {
   const std::string_view column = peek();
   const char* const ellipsis = column.size() > kMaxShown ? "..." : "";
   // A tag in place of a number means that the file has another format.
-  const bool tag = index_ == 0 && guess(file_, line_) == Format::g2o;
+  const bool tag = index_ == 0 && is_graph_tag(column);
   return file_.error(line_.number,
                      fmt::format("column {} ({}): '{}{}' {}{}",
                                  index_ + 1,
@@ -54,9 +52,6 @@ std::string columns_text(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " column" : " columns");
 }
 
-namespace {
-
-/// Numbers as "0,5" between spaces, with one comma at most, and none with a point.
 bool has_decimal_commas(std::string_view text) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   if (text.find(',') == text.npos || text.find(' ') == text.npos || text.find('.') != text.npos)
@@ -72,26 +67,9 @@ bool has_decimal_commas(std::string_view text) {
   return true;
 }
 
-}  // namespace
-
-void reject_decimal_commas(const TextFile& file, const Line& line) {
-  if (has_decimal_commas(line.text))
-    throw file.error(line.number, "has decimal commas, expected decimal points");
-}
-
-InputError wrong_columns(const TextFile& file,
-                         const Line& line,
-                         Format reading,
-                         const std::string& expected) {
-  std::string what = "has " + columns_text(count_columns(file, line)) + ", expected " + expected;
-  if (has_decimal_commas(line.text)) {
-    what += " (decimal commas: expected decimal points)";
-  } else if (line.unterminated) {
-    what += " (the file ends in the middle of this line)";
-  } else if (const auto format = guess(file, line); format && *format != reading) {
-    what += " (looks like " + to_text(*format) + ")";
-  }
-  return file.error(line.number, what);
+bool is_graph_tag(std::string_view word) {
+  return word.starts_with("VERTEX") || word.starts_with("EDGE") || word.starts_with("PARAMS_") ||
+         word == "FIX";
 }
 
 }  // namespace loopbench

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <system_error>
 
+#include "datasets/columns/reading.hpp"
 #include "datasets/columns/short_number.hpp"
 #include "datasets/columns/stamps.hpp"
 #include "datasets/columns/text_file.hpp"
-#include "datasets/formats/formats.hpp"
 
 namespace loopbench {
 
@@ -111,14 +111,10 @@ std::size_t count_columns(const TextFile& file, const Line& line);
 /// "1 column", "8 columns"
 std::string columns_text(std::size_t count);
 
-/// Throws InputError for numbers like "0,5" between spaces in a line without a point.
-void reject_decimal_commas(const TextFile& file, const Line& line);
+/// Whether a line has numbers like "0,5" between spaces, with one comma at most, and no point.
+bool has_decimal_commas(std::string_view text);
 
-/// Error "has 7 columns, expected `expected`", with a hint if the line is truncated or looks like
-/// another format than `reading`.
-InputError wrong_columns(const TextFile& file,
-                         const Line& line,
-                         Format reading,
-                         const std::string& expected);
+/// Whether a word is the tag of a line of g2o.
+bool is_graph_tag(std::string_view word);
 
 }  // namespace loopbench

@@ -9,7 +9,6 @@
 #include "datasets/columns/stamps.hpp"
 #include "datasets/core/covariance.hpp"
 #include "datasets/core/params.hpp"
-#include "datasets/formats/detect_format.hpp"
 
 namespace loopbench {
 namespace {
@@ -48,7 +47,8 @@ std::optional<std::size_t> stated(const TextFile& file,
     if (!(in >> name >> value) || name != key) continue;
     for (std::size_t i = 0; i < N; ++i) {
       if (value == words[i]) return i;
-      accepted += (i == 0 ? "" : i + 1 == N ? " or " : ", ") + std::string(words[i]);
+      if (i > 0) accepted += i + 1 == N ? " or " : ", ";
+      accepted += words[i];
     }
     throw file.error(number, "#%" + key + " is '" + value + "', expected " + accepted);
   }
@@ -137,9 +137,8 @@ std::optional<CovarianceColumns> covariance_columns(const TextFile& file,
   out.is_stated = convention.has_value();
   out.rotation_first = order.value_or(0) == 1;
   const bool is_fixed = out.part == Part::all || is_position;
-  out.convention = convention ? choices(TangentConvention{})[*convention].second
-                   : is_fixed ? TangentConvention::fixed_axes
-                              : TangentConvention::right_perturbation;
+  out.convention = is_fixed ? TangentConvention::fixed_axes : TangentConvention::right_perturbation;
+  if (convention) out.convention = choices(TangentConvention{})[*convention].second;
   return out;
 }
 

@@ -130,13 +130,13 @@ std::string why_not_understood(const PoseNames& all, bool with_rotation) {
                          shortened(all.names[found[1]]));
     }
     if (const std::string& wrong = all.meaning(found[0]).wrong_unit; !wrong.empty()) {
-      const bool is_angle = role == Role::latitude || role == Role::longitude;
+      std::string accepted = "m, cm or mm";
+      if (role == Role::time) accepted = "s, ms, us or ns";
+      if (role == Role::latitude || role == Role::longitude) accepted = "deg";
       return fmt::format("has a header with unit {} in '{}', expected {}",
                          shortened(wrong),
                          shortened(all.names[found[0]]),
-                         role == Role::time ? "s, ms, us or ns"
-                         : is_angle         ? "deg"
-                                            : "m, cm or mm");
+                         accepted);
     }
   }
   if (missing.empty()) return "";

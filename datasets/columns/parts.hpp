@@ -28,13 +28,7 @@ auto read_parallel(TextFile& file, const Parse& parse, const Fits& fits) {
       for (std::size_t i = 1; i < parts.size(); ++i) all_fit &= fits(parts[i - 1], parts[i]);
       if (all_fit) {
         for (const TextFile& text : texts) {
-          file.repaired.off_unit = std::max(file.repaired.off_unit, text.repaired.off_unit);
-          file.repaired.repeated += text.repaired.repeated;
-          file.repaired.invalid += text.repaired.invalid;
-          file.repaired.without_fix += text.repaired.without_fix;
-          const auto& covariances = text.repaired.covariances;
-          file.repaired.covariances.insert(
-              file.repaired.covariances.end(), covariances.begin(), covariances.end());
+          file.repaired.append(text.repaired);
         }
         return parts;
       }

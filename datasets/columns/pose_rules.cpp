@@ -19,10 +19,12 @@ InputError wrong_norm(const TextFile& file, std::size_t line, double norm) {
   return file.error(line, fmt::format("quaternion has norm {:.6g}, expected 1 +- 0.01", norm));
 }
 
-Trajectory local_positions(Trajectory geodetic, const ReadOptions& options) {
+Trajectory local_positions(Trajectory geodetic,
+                           const ReadOptions& options,
+                           ReadFindings& findings) {
   if (geodetic.empty()) return geodetic;
   const GeodeticOrigin origin = options.origin.value_or(origin_of(geodetic));
-  if (options.findings) options.findings->origin = origin;
+  findings.origin = origin;
   return to_local(std::move(geodetic), origin);
 }
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "datasets/columns/reading.hpp"
 #include "datasets/columns/text_file.hpp"
 #include "datasets/core/trajectory.hpp"
-#include "datasets/formats/formats.hpp"
 
 namespace loopbench {
 
@@ -20,8 +20,9 @@ inline void require_degrees(const TextFile& file, std::size_t line, const Vector
   if (!rule.empty()) throw file.error(line, rule);
 }
 
-/// Converts what was read to local coordinates, with the origin of the options if they state one.
-Trajectory local_positions(Trajectory geodetic, const ReadOptions& options);
+/// Converts what was read to local coordinates, with the origin of the options if they state one,
+/// and stores the origin.
+Trajectory local_positions(Trajectory geodetic, const ReadOptions& options, ReadFindings& findings);
 
 /// Throws InvalidRow for a row with a zero quaternion below rows with rotations, and InputError for
 /// the reverse, unless `options` drop the invalid rows `above`.

@@ -67,7 +67,8 @@ int fit(StampUnit unit, const SampledStamps& stamps) {
   if (step != 0.0 && (step < kShortest || step > kLongest)) return -1;
   if (time >= kEarliest) return 3;
   // A clock that starts at 0 has decimals only in seconds.
-  return kUsual <= step && step <= kMostUsual ? 2 : step == 0.0 ? -1 : 1;
+  if (kUsual <= step && step <= kMostUsual) return 2;
+  return step == 0.0 ? -1 : 1;
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "datasets/columns/reading.hpp"
 #include "datasets/columns/text_file.hpp"
 #include "datasets/core/trajectory.hpp"
-#include "datasets/formats/formats.hpp"
 
 namespace loopbench {
 

@@ -173,6 +173,13 @@ void TextFile::put_back(const Line& line) {
   line_ = line.number - 1;
 }
 
+Line first_line(TextFile& file) {
+  Line line;
+  if (!file.next(line)) throw file.error(0, "contains no data, only comments and blank lines");
+  file.put_back(line);
+  return line;
+}
+
 std::vector<TextFile> TextFile::cut(std::size_t count) const {
   std::vector<TextFile> out;
   std::size_t begin = begin_;

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "datasets/columns/reading.hpp"
 #include "datasets/compressed/input_file.hpp"
 #include "datasets/core/error.hpp"
-#include "datasets/formats/formats.hpp"
 
 namespace loopbench {
 
@@ -120,5 +120,8 @@ class alignas(64) TextFile {
   std::unique_ptr<std::FILE, Close> handle_;
   std::unique_ptr<char[]> window_;
 };
+
+/// Returns the first line of data without consuming it. Throws InputError if there is none.
+Line first_line(TextFile& file);
 
 }  // namespace loopbench

@@ -19,6 +19,7 @@
 
 #include "datasets/compressed/decompress.hpp"
 #include "datasets/compressed/zip.hpp"
+#include "datasets/files/regular_file.hpp"
 
 namespace loopbench {
 namespace {
@@ -202,6 +203,16 @@ OpenedFile open_input(const std::filesystem::path& file,
       std::fread(magic.data(), 1, magic.size(), opened(out.name, out.path).get());
   const std::string_view start(magic.data(), count);
   return codec_of(start) || is_zip(start) ? from_compressed(out, limit) : out;
+}
+
+std::string read_named_file(const std::filesystem::path& file,
+                            std::size_t most,
+                            const std::string& what) {
+  if (!std::filesystem::exists(file)) {
+    throw input_error(file.string(), 0, "no such file, expected " + what);
+  }
+  const OpenedFile in = open_input(file, what, most);
+  return read_regular_file(in.path, most, "file");
 }
 
 }  // namespace loopbench

@@ -38,4 +38,10 @@ OpenedFile open_input(const std::filesystem::path& file,
                       const std::string& expected = "a text file",
                       std::size_t limit = std::size_t{8} << 30);
 
+/// Returns all bytes of a file that the user names, as open_input() accepts it. Throws InputError
+/// as that does, where `what` is the expected content, and for more than `most` bytes.
+std::string read_named_file(const std::filesystem::path& file,
+                            std::size_t most,
+                            const std::string& what);
+
 }  // namespace loopbench

@@ -15,6 +15,7 @@
 #include "datasets/core/params.hpp"
 #include "datasets/core/sequence.hpp"
 #include "datasets/derive/poses_at.hpp"
+#include "datasets/formats/formats.hpp"
 
 namespace loopbench {
 

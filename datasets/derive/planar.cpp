@@ -18,7 +18,8 @@ std::string axis_text(const Vector3& normal) {
 std::string listed(const std::vector<std::string>& names) {
   std::string out;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    out += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+    if (i > 0) out += i + 1 < names.size() ? ", " : " and ";
+    out += names[i];
   }
   return out;
 }

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "datasets/compressed/input_file.hpp"
 #include "datasets/core/error.hpp"
 
 namespace loopbench {
@@ -76,16 +75,6 @@ std::string read_regular_file(const std::filesystem::path& file,
   std::string out(in.size(), '\0');
   out.resize(in.read(out.data(), out.size()));
   return out;
-}
-
-std::string read_named_file(const std::filesystem::path& file,
-                            std::size_t most,
-                            const std::string& what) {
-  if (!std::filesystem::exists(file)) {
-    throw input_error(file.string(), 0, "no such file, expected " + what);
-  }
-  const OpenedFile in = open_input(file, what, most);
-  return read_regular_file(in.path, most, "file");
 }
 
 }  // namespace loopbench

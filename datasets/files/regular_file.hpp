@@ -36,10 +36,4 @@ std::string read_regular_file(const std::filesystem::path& file,
                               std::size_t most,
                               const std::string& what);
 
-/// Returns all bytes of a file that the user names, as open_input() accepts it. Throws InputError
-/// as that does, where `what` is the expected content, and for more than `most` bytes.
-std::string read_named_file(const std::filesystem::path& file,
-                            std::size_t most,
-                            const std::string& what);
-
 }  // namespace loopbench

@@ -1,3 +1,5 @@
+#include "datasets/formats/csv.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +12,8 @@
 #include "datasets/columns/stamp_unit.hpp"
 #include "datasets/columns/stamps.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/text_formats.hpp"
+#include "datasets/formats/format_registry.hpp"
+#include "datasets/formats/written_rows.hpp"
 
 namespace loopbench {
 namespace {
@@ -188,6 +191,8 @@ ReadStamp csv_stamp(const TextFile& file,
   return stamp_of_row(file, line, columns, row, exponent);
 }
 
+namespace {
+
 Trajectory read_csv(TextFile& file, const ReadOptions& options) {
   const auto columns = csv_columns(file);
   if (columns && !columns->has_rotation && !options.positions) {
@@ -208,10 +213,52 @@ Trajectory read_csv(TextFile& file, const ReadOptions& options) {
   file.repaired.ignored_columns = columns->ignored;
   if (columns->names_frames && !out.empty() && has_frame_numbers(file, columns->index[0])) {
     file.repaired.clock = Clock::ids;
-    set_stamps(file, options, out);
   }
   if (!columns->is_geodetic) return out;
-  return local_positions(std::move(out), options);
+  return local_positions(std::move(out), options, file.repaired);
+}
+
+bool has_frames(const TextFile& file) {
+  const auto columns = csv_columns(file);
+  return columns && columns->names_frames && has_frame_numbers(file, columns->index[0]);
+}
+
+/// Rows of the covariance that are written; 0: none.
+Eigen::Index csv_axes(const TrajectoryFile& file, bool has_rotations) {
+  if (file.covariances.empty()) return 0;
+  return has_rotations ? 6 : 3;
+}
+
+TextWriter csv_text(const TrajectoryFile& file, const std::string&) {
+  TextWriter out(',');
+  const bool has_rotations = !lacks_rotations(file.poses);
+  for (const char* name : {"timestamp", "x", "y", "z"}) out.word(name);
+  if (has_rotations) {
+    for (const char* name : {"qx", "qy", "qz", "qw"}) out.word(name);
+  }
+  const Eigen::Index axes = csv_axes(file, has_rotations);
+  if (axes > 0) {
+    for (const std::string& name : covariance_names(has_rotations)) out.word(name);
+  }
+  out.end_line();
+  for (std::size_t i = 0; i < file.poses.size(); ++i) {
+    write_row(out, file, i);
+    for (Eigen::Index a = 0; a < axes; ++a) {
+      for (Eigen::Index b = a; b < axes; ++b) out.number(file.covariances[i](a, b));
+    }
+    out.end_line();
+  }
+  return out;
+}
+
+}  // namespace
+
+FormatEntry csv_format() {
+  return {.format = Format::csv,
+          .read = read_csv,
+          .takes_times = has_frames,
+          .write = csv_text,
+          .contents = {.positions = true, .covariances = true, .position_covariances = true}};
 }
 
 }  // namespace loopbench

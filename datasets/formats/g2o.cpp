@@ -72,6 +72,10 @@ void invert_edge(const TextFile& file, std::size_t line, Edge& edge) {
 
 PoseGraph read_g2o(const std::filesystem::path& path, const InformationRules& rules) {
   TextFile file(path);
+  return read_g2o(file, rules);
+}
+
+PoseGraph read_g2o(TextFile& file, const InformationRules& rules) {
   Records records = read_records(file, rules);
   PoseGraph out;
   out.altered = records.altered;
@@ -202,7 +206,7 @@ const char* suffix(const PoseGraph& graph) {
 
 }  // namespace
 
-void write_g2o(const std::filesystem::path& file, const PoseGraph& graph) {
+TextWriter g2o_text(const PoseGraph& graph) {
   TextWriter out;
   const std::string vertex = std::string("VERTEX_") + suffix(graph);
   const std::string edge = std::string("EDGE_") + suffix(graph);
@@ -224,7 +228,11 @@ void write_g2o(const std::filesystem::path& file, const PoseGraph& graph) {
     }
     out.end_line();
   }
-  out.save(file);
+  return out;
+}
+
+void write_g2o(const std::filesystem::path& file, const PoseGraph& graph) {
+  g2o_text(graph).save(file);
 }
 
 }  // namespace loopbench

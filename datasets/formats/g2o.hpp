@@ -11,6 +11,9 @@
 
 namespace loopbench {
 
+class TextFile;
+class TextWriter;
+
 /// Edges refer to vertices by their index in `ids`, not by id. from < to always: other edges are
 /// inverted on reading, and their information is transformed by the adjoint.
 struct PoseGraph {
@@ -62,11 +65,15 @@ struct InformationRules {
 /// - PARAMS lines and comments are skipped; other tags are rejected.
 /// Throws InputError `file:line: what`. O(n log n) in the number of lines.
 PoseGraph read_g2o(const std::filesystem::path& file, const InformationRules& rules = {});
+PoseGraph read_g2o(TextFile& file, const InformationRules& rules);
 
 /// Writes vertices, FIX lines and edges, as SE2 lines if `planar`, as RST3 if `similarity`, else as
 /// SE3:QUAT. read_g2o returns yaw angles and scales up to rounding, all other values bit-identical.
 /// Throws InputError if the file cannot be written.
 void write_g2o(const std::filesystem::path& file, const PoseGraph& graph);
+
+/// The text of such a file.
+TextWriter g2o_text(const PoseGraph& graph);
 
 /// Stamps of all vertices: id * period [s]. Of ids that are symbols of GTSAM (a letter in the
 /// highest byte, an index below) it is the index, or the position in the graph if several letters

@@ -71,7 +71,8 @@ inline std::optional<PriorRecord> read_prior(const TextFile& file,
   } else if (tag.has_rotation) {
     rotation = exp_so3({0.0, 0.0, columns.number("yaw")});
   }
-  const int size = tag.dimension + (tag.has_rotation ? (is_spatial ? 3 : 1) : 0);
+  const int rotations = is_spatial ? 3 : 1;
+  const int size = tag.dimension + (tag.has_rotation ? rotations : 0);
   Eigen::MatrixXd information(size, size);
   for (int i = 0; i < size; ++i) {
     for (int j = i; j < size; ++j) {

@@ -1,3 +1,5 @@
+#include "datasets/formats/kitti.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -8,7 +10,8 @@
 #include "datasets/columns/stamp_unit.hpp"
 #include "datasets/columns/stamps.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/text_formats.hpp"
+#include "datasets/formats/format_registry.hpp"
+#include "datasets/formats/known_layouts.hpp"
 
 namespace loopbench {
 namespace {
@@ -92,47 +95,6 @@ Trajectory read_stamped(TextFile& file, const ReadOptions& options, int exponent
   return out;
 }
 
-}  // namespace
-
-void set_stamps(const TextFile& file, const ReadOptions& options, Trajectory& poses) {
-  if (!options.times) {
-    for (StampedPose& pose : poses) pose.stamp *= options.period;
-    return;
-  }
-  const std::vector<double> times = read_times(*options.times, options);
-  const std::size_t rows = poses.size() + file.repaired.invalid;
-  const auto last = static_cast<std::size_t>(poses.back().stamp);
-  const bool by_rows = file.repaired.clock == Clock::rows;
-  if (by_rows ? times.size() != rows : times.size() <= last) {
-    throw file.error(
-        0,
-        fmt::format("has {}, but {} has {} times, expected {}",
-                    by_rows ? fmt::format("{} poses", rows) : fmt::format("frame {}", last),
-                    options.times->string(),
-                    times.size(),
-                    by_rows ? "equal numbers" : "one for each frame from 0 on"));
-  }
-  for (StampedPose& pose : poses) pose.stamp = times[static_cast<std::size_t>(pose.stamp)];
-  file.repaired.clock = Clock::stamps;
-}
-
-std::vector<double> read_times(const std::filesystem::path& path, const ReadOptions& options) {
-  TextFile file(path);
-  first_line(file);
-  ReadOptions own{.sort = options.sort, .stamp_unit = options.stamp_unit};
-  const int exponent = stamp_exponent(file, 0, own);
-  std::vector<double> out;
-  StampOrder order(file, own, exponent);
-  for (Line line; file.next(line);) {
-    Columns columns(file, line);
-    const std::string_view word = columns.peek();
-    out.push_back(next_stamp(columns, exponent).seconds);
-    if (!columns.done()) throw wrong_columns(file, line, Format::automatic, "1: a time in seconds");
-    order.accepts(out.back(), word, line.number);
-  }
-  return out;
-}
-
 Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
   const Line first = first_line(file);
   const bool has_frames = is_stamped(file, first) && has_frame_numbers(file, 0);
@@ -150,9 +112,44 @@ Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
     for (std::size_t i = 0; i < out.size(); ++i) out[i].stamp = static_cast<double>(i);
   }
   file.repaired.clock = has_frames ? Clock::ids : Clock::rows;
-  if (!out.empty()) set_stamps(file, options, out);
   return out;
 }
+
+/// Whether a line has a 4 x 4 matrix, or a matrix after a stamp, whose first two rows begin with
+/// unit vectors.
+bool is_other_matrix(const TextFile& file, const Line& line) {
+  const std::size_t count = count_columns(file, line);
+  const std::size_t first = count == 16 ? 0 : 1;
+  return (count == 13 || count == 16 || count == 17) &&
+         is_unit_square(square_of_columns(file, line, first, 3)) &&
+         is_unit_square(square_of_columns(file, line, first + 4, 3));
+}
+
+bool is_kitti(const TextFile& file, const Line& line) {
+  const std::string_view first = Columns(file, line).word();
+  return is_other_matrix(file, line) ||
+         (count_columns(file, line) == 12 && stamp_number(first) && !is_nanoseconds(first));
+}
+
+bool lacks_stamps(const TextFile& file) {
+  TextFile reopened = file.reopened();
+  return !is_stamped(file, first_line(reopened)) || has_frame_numbers(file, 0);
+}
+
+TextWriter kitti_text(const TrajectoryFile& file, const std::string&) {
+  TextWriter out;
+  for (const auto& [stamp, pose] : file.poses) {
+    const Matrix3 R = pose.rotation.toRotationMatrix();
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) out.number(R(i, j));
+      out.number(pose.translation[i]);
+    }
+    out.end_line();
+  }
+  return out;
+}
+
+}  // namespace
 
 std::vector<PoseMatrix> read_kitti_matrices(const std::filesystem::path& path) {
   TextFile file(path);
@@ -161,6 +158,14 @@ std::vector<PoseMatrix> read_kitti_matrices(const std::filesystem::path& path) {
     out.push_back(matrix);
   });
   return out;
+}
+
+FormatEntry kitti_format() {
+  return {.format = Format::kitti,
+          .guess = is_kitti,
+          .read = read_kitti,
+          .takes_times = lacks_stamps,
+          .write = kitti_text};
 }
 
 }  // namespace loopbench

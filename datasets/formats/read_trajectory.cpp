@@ -11,116 +11,40 @@
 #include "datasets/columns/stamp_unit.hpp"
 #include "datasets/columns/stamps.hpp"
 #include "datasets/core/fields.hpp"
+#include "datasets/formats/csv.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/g2o.hpp"
-#include "datasets/formats/text_formats.hpp"
+#include "datasets/formats/format_registry.hpp"
+#include "datasets/formats/times.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 
 namespace loopbench {
 namespace {
 
-Trajectory trajectory_of(const PoseGraph& graph, const std::string& name, double period) {
-  std::vector<Pose> composed;
-  if (graph.vertices.empty()) composed = chain(graph, name);
-  const std::vector<Pose>& poses = graph.vertices.empty() ? composed : graph.vertices;
-  Trajectory out;
-  out.reserve(poses.size());
-  const std::vector<double> stamps = vertex_stamps(graph, period);
-  for (std::size_t i = 0; i < poses.size(); ++i) out.push_back({stamps[i], poses[i]});
-  check(out, name);  // composed poses may overflow; ids above 2^53 may give equal stamps
-  return out;
-}
-
-bool is_same_pose(const PoseMessage& a, const PoseMessage& b) {
-  return a.nanoseconds == b.nanoseconds &&
-         a.frame_from_child.translation == b.frame_from_child.translation &&
-         a.frame_from_child.rotation.coeffs() == b.frame_from_child.rotation.coeffs();
-}
-
-TrajectoryFile from_bag(const std::string& name, const ReadOptions& options) {
-  BagTrajectory bag = read_bag_trajectory(bag_name(name));
-  if (!options.positions && !has_rotation(bag.poses.front().frame_from_child)) {
-    throw InputError(name + ": topic '" + bag.topic +
-                     "' has positions without rotation, which are accepted only as a reference, "
-                     "and by eval, doctor and traj");
-  }
-  TrajectoryFile out{.poses = {}, .format = Format::bag};
-  ReadFindings findings{bag.off_unit, 0, bag.damage};
-  bool has_covariances = true;
-  const PoseMessage* last = nullptr;
-  for (const PoseMessage& pose : bag.poses) {
-    double stamp = seconds_of(pose.nanoseconds);
-    if (last != nullptr && pose.nanoseconds > last->nanoseconds) {
-      stamp = std::max(stamp, std::nextafter(out.poses.back().stamp, HUGE_VAL));
-    }
-    if (bag.is_geodetic) {
-      const std::string rule = violated_degrees(pose.frame_from_child.translation);
-      if (!rule.empty()) throw InputError(name + ": " + rule);
-    }
-    const bool repeats = options.repeats != Repeats::keep_all && !out.poses.empty() &&
-                         stamp == out.poses.back().stamp;
-    if (repeats && is_same_pose(*last, pose)) continue;
-    if (repeats) {
-      if (pose.nanoseconds == 0) {
-        throw InputError(name + ": several messages have stamp 0: header.stamp was not recorded");
-      }
-      if (options.repeats == Repeats::refuse) {
-        throw InputError(name + ": stamp " + seconds_text(pose.nanoseconds) +
-                         " has two poses, expected increasing stamps (or repeats: keep_first, "
-                         "keep_last)");
-      }
-      ++findings.repeated;
-      if (options.repeats == Repeats::keep_first) continue;
-      out.poses.pop_back();
-      out.nanoseconds.pop_back();
-      if (has_covariances) out.covariances.pop_back();
-    }
-    last = &pose;
-    out.poses.push_back({stamp, pose.frame_from_child});
-    out.nanoseconds.push_back(pose.nanoseconds);
-    has_covariances &= pose.covariance.has_value() && pose.covariance->allFinite();
-    if (has_covariances) out.covariances.push_back(*pose.covariance);
-  }
-  if (!has_covariances) out.covariances.clear();
-  if (options.findings) *options.findings = findings;
-  if (bag.is_geodetic) out.poses = local_positions(std::move(out.poses), options);
-  return out;
-}
-
-bool is_bag(const std::filesystem::path& path, Format format) {
-  if (names_bag(path.string()) || format == Format::bag) return true;
-  return format == Format::automatic && bag_kind(open_input(path)) != BagKind::none;
-}
-
 /// Rejects options that do not fit, then reads a text file.
-TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& options) {
+TrajectoryFile read_text_file(const std::filesystem::path& path, const ReadOptions& options) {
   TextFile file(path);
   file.skip_header();
   const Format format = options.format == Format::automatic ? detect_format(file) : options.format;
-  if (options.times && !takes_times(file, format)) {
+  const FormatEntry& entry = entry_of(format);
+  if (options.times && !(entry.takes_times != nullptr && entry.takes_times(file))) {
     throw file.error(0, "has format " + to_text(format) + " with stamps, expected no times file");
   }
-  TrajectoryFile out{.poses = {}, .format = format};
-  if (format == Format::g2o) {
-    // Poses do not depend on the information, which programs write with six digits.
-    const InformationRules any{.indefinite = IndefiniteInformation::project};
-    out.poses = trajectory_of(read_g2o(path, any), file.name(), options.period);
-    file.repaired.clock = Clock::ids;
-  } else {
-    out.poses = format == Format::kitti   ? read_kitti(file, options)
-                : format == Format::euroc ? read_euroc(file, options)
-                : format == Format::csv   ? read_csv(file, options)
-                                          : read_tum(file, options);
-  }
-  out.has_stamps = file.repaired.clock == Clock::stamps;
-  out.covariances = std::move(file.repaired.covariances);
-  file.repaired.covariances.clear();
-  if (options.findings) {
-    const auto origin = options.findings->origin;  // of positions in WGS 84, already written
-    *options.findings = std::move(file.repaired);
-    options.findings->origin = origin;
-  }
+  TrajectoryFile out{.poses = entry.read(file, options), .format = format};
+  ReadFindings& findings = file.repaired;
+  if (findings.clock != Clock::stamps && !out.poses.empty()) set_stamps(file, options, out.poses);
+  out.has_stamps = findings.clock == Clock::stamps;
+  out.covariances = std::move(findings.covariances);
+  findings.covariances.clear();
+  if (options.findings) *options.findings = std::move(findings);
   return out;
+}
+
+/// The reader of a file that is not text; null: it is text.
+const FormatEntry* file_format(const std::filesystem::path& path, Format stated) {
+  if (names_bag(path.string())) return &entry_of(Format::bag);
+  if (stated == Format::automatic) return detect_file(path);
+  const FormatEntry& entry = entry_of(stated);
+  return entry.read_file == nullptr ? nullptr : &entry;
 }
 
 /// Exact stamps of the poses in `file`, in order; empty if one is not a number of nanoseconds.
@@ -207,8 +131,8 @@ std::vector<std::string> reading_notes(const ReadFindings& findings) {
 
 Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
   check_period(options);
-  const bool is_recorded = is_bag(path, options.format);
-  TrajectoryFile out = is_recorded ? from_bag(path.string(), options) : from_text(path, options);
+  const FormatEntry* const other = file_format(path, options.format);
+  TrajectoryFile out = other ? other->read_file(path, options) : read_text_file(path, options);
   sort_rows(out, path.string(), options);
   if (options.findings) options.findings->covariances = std::move(out.covariances);
   return std::move(out.poses);
@@ -216,8 +140,10 @@ Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions&
 
 TrajectoryFile read_trajectory_file(const std::filesystem::path& path, const ReadOptions& options) {
   check_period(options);
-  if (is_bag(path, options.format)) return from_bag(path.string(), options);
-  TrajectoryFile out = from_text(path, options);
+  if (const FormatEntry* const other = file_format(path, options.format)) {
+    return other->read_file(path, options);
+  }
+  TrajectoryFile out = read_text_file(path, options);
   if (out.has_stamps && !options.times) out.nanoseconds = exact_stamps(path, out, options);
   sort_rows(out, path.string(), options);
   return out;

@@ -1,15 +1,27 @@
+#include "datasets/formats/tum.hpp"
+
 #include "datasets/columns/covariance_columns.hpp"
 #include "datasets/columns/parts.hpp"
 #include "datasets/columns/pose_rules.hpp"
 #include "datasets/columns/stamp_unit.hpp"
 #include "datasets/columns/stamps.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/text_formats.hpp"
+#include "datasets/formats/format_registry.hpp"
+#include "datasets/formats/known_layouts.hpp"
+#include "datasets/formats/written_rows.hpp"
 
 namespace loopbench {
 namespace {
 
 constexpr std::array kTumColumns{"stamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
+
+/// Whether a line has a ninth column, the number of a node, as RTAB-Map exports it: the stamp has
+/// decimals, unlike that of EuRoC, and columns 5 to 8 are a unit quaternion.
+bool has_node_id(const TextFile& file, const Line& line) {
+  const bool is_in_seconds = Columns(file, line).word().find('.') != std::string_view::npos;
+  return is_in_seconds && count_columns(file, line) == 9 &&
+         is_unit_square(square_of_columns(file, line, 4, 4));
+}
 
 struct TumColumns {
   std::size_t pose = kTumColumns.size();
@@ -93,7 +105,11 @@ Trajectory read_tum_part(TextFile& file, const ReadOptions& options, const TumCo
   return out;
 }
 
-}  // namespace
+bool is_tum(const TextFile& file, const Line& line) {
+  if (!stamp_number(Columns(file, line).word())) return false;
+  const std::size_t count = count_columns(file, line);
+  return count == 8 || count == 4 || count == 29 || count == 44 || has_node_id(file, line);
+}
 
 Trajectory read_tum(TextFile& file, const ReadOptions& options) {
   const TumColumns layout = tum_columns(file, options);
@@ -102,6 +118,35 @@ Trajectory read_tum(TextFile& file, const ReadOptions& options) {
       file,
       [&](TextFile& part) { return read_tum_part(part, options, layout); },
       [&](const Trajectory& a, const Trajectory& b) { return follows(a, b, options.sort); }));
+}
+
+TextWriter text_of_tum(const TrajectoryFile& file, const std::string&) {
+  return tum_text(file, {});
+}
+
+}  // namespace
+
+TextWriter tum_text(const TrajectoryFile& file, const std::vector<std::string>& comments) {
+  TextWriter out;
+  for (const std::string& comment : comments) out.comment(comment);
+  const bool is_uncertain = has_covariances(file, Format::tum);
+  if (is_uncertain) out.word("#%TANGENT_CONVENTION fixed_axes").end_line();
+  for (std::size_t i = 0; i < file.poses.size(); ++i) {
+    write_row(out, file, i);
+    if (is_uncertain) {
+      for (const double value : file.covariances[i].reshaped()) out.number(value);  // symmetric
+    }
+    out.end_line();
+  }
+  return out;
+}
+
+FormatEntry tum_format() {
+  return {.format = Format::tum,
+          .guess = is_tum,
+          .read = read_tum,
+          .write = text_of_tum,
+          .contents = {.positions = true, .covariances = true}};
 }
 
 }  // namespace loopbench

@@ -7,7 +7,8 @@
 #include "datasets/derive/closures.hpp"
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/g2o.hpp"
-#include "datasets/formats/text_formats.hpp"
+#include "datasets/formats/kitti.hpp"
+#include "datasets/formats/times.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 

@@ -12,7 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "datasets/formats/text_formats.hpp"
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/kitti.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/errors/ate.hpp"
 #include "metrics/errors/printed_motion.hpp"

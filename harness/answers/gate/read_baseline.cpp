@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "datasets/compressed/input_file.hpp"
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
-#include "datasets/files/regular_file.hpp"
 #include "harness/answers/gate/baseline.hpp"
 #include "harness/sweep/model/where.hpp"
 #include "harness/sweep/text/suggest.hpp"

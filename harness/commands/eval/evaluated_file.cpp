@@ -9,7 +9,7 @@
 #include "datasets/columns/stamp_unit.hpp"
 #include "datasets/core/covariance.hpp"
 #include "datasets/core/fields.hpp"
-#include "datasets/formats/text_formats.hpp"
+#include "datasets/formats/kitti.hpp"
 #include "harness/commands/files/trajectory_selection.hpp"
 #include "metrics/protocols/protocols.hpp"
 #include "metrics/trajectory/position_only.hpp"

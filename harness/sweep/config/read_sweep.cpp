@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "datasets/files/regular_file.hpp"
+#include "datasets/compressed/input_file.hpp"
 #include "harness/sweep/config/choices.hpp"
 #include "harness/sweep/config/keys.hpp"
 #include "harness/sweep/config/sweep_settings.hpp"

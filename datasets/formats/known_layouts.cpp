@@ -1,0 +1,87 @@
+#include "datasets/formats/known_layouts.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "datasets/columns/columns.hpp"
+
+namespace loopbench {
+
+bool is_nanoseconds(std::string_view word) {
+  constexpr std::size_t kMinDigits = 17;
+  return word.size() >= kMinDigits &&
+         std::all_of(word.begin(), word.end(), [](char c) { return '0' <= c && c <= '9'; });
+}
+
+double square_of_columns(const TextFile& file, const Line& line, std::size_t first, int count) {
+  Columns columns(file, line);
+  for (std::size_t i = 0; i < first; ++i) columns.word();
+  double out = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const std::string_view word = columns.word();
+    double value = 0.0;
+    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc{} || stop != word.data() + word.size()) return std::nan("");
+    out += value * value;
+  }
+  return out;
+}
+
+bool is_unit_square(double square) { return std::abs(square - 1.0) <= 1e-3; }
+
+bool is_of_colmap(const TextFile& file, const Line& line) {
+  return count_columns(file, line) == 10 && is_unit_square(square_of_columns(file, line, 1, 4)) &&
+         std::isnan(square_of_columns(file, line, 9, 1));
+}
+
+namespace {
+
+/// Whether the first lines are the rows of a 4 x 4 matrix, perhaps below a line of numbers.
+bool has_matrix_lines(const TextFile& file) {
+  TextFile reopened = file.reopened();
+  Line line;
+  if (!reopened.next(line)) return false;
+  if (count_columns(file, line) != 4 && !reopened.next(line)) return false;
+  const bool begins =
+      count_columns(file, line) == 4 && is_unit_square(square_of_columns(file, line, 0, 3));
+  for (int i = 0; i < 3; ++i) reopened.next(line);
+  return begins && count_columns(file, line) == 4 && square_of_columns(file, line, 0, 3) == 0.0;
+}
+
+}  // namespace
+
+void reject_known(const TextFile& file, const Line& line) {
+  const std::size_t count = count_columns(file, line);
+  const auto is_unit = [&](std::size_t first, int n) {
+    return is_unit_square(square_of_columns(file, line, first, n));
+  };
+  std::string what;
+  if (line.text.starts_with('{') || line.text.starts_with('[')) {
+    what =
+        "is JSON, expected rows of numbers; for a list of objects with t, x, y, z and a "
+        "quaternion: jq -r '.[] | [.t, .x, .y, .z, .qx, .qy, .qz, .qw] | @tsv' FILE > poses.txt";
+  } else if (is_of_colmap(file, line)) {
+    what =
+        "has 10 columns as images.txt of COLMAP (camera_from_world): awk '!/^#/ && ++n%2 {print "
+        "$1,$6,$7,$8,$3,$4,$5,$2}' FILE > images.tum; loopbench traj transform images.tum "
+        "--sort --invert-poses -o poses.txt; stamps are numbers of images, or take the time "
+        "from the name in column 10";
+  } else if (count == 7 && is_unit(3, 4)) {
+    what =
+        "has 7 columns, a pose x y z qx qy qz qw without a stamp? Expected one in the first "
+        "column: paste -d' ' TIMES FILE > poses.txt, with one time per line";
+  } else if (count == 7) {
+    what =
+        "has 7 columns, a stamp, a position and three angles? Expected a quaternion; for the "
+        "positions alone: awk '{print $1,$2,$3,$4}' FILE > poses.txt";
+  } else if ((count == 3 || count == 4) && has_matrix_lines(file)) {
+    what =
+        "has a 4 x 4 matrix over four lines, expected one line: awk 'NF == 4' FILE | "
+        "paste -d' ' - - - - > poses.txt";
+  }
+  if (what.empty()) return;
+  throw file.error(line.number, what.replace(what.find("FILE"), 4, file.name()));
+}
+
+}  // namespace loopbench

@@ -1,0 +1,20 @@
+/// Times of poses without stamps.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "datasets/columns/reading.hpp"
+#include "datasets/columns/text_file.hpp"
+#include "datasets/core/trajectory.hpp"
+
+namespace loopbench {
+
+/// Reads strictly increasing times, one per line, with the unit and order of the options.
+std::vector<double> read_times(const std::filesystem::path& file, const ReadOptions& options);
+
+/// Replaces the numbers of rows or frames in `poses`, as repaired.clock states, by the times of the
+/// options, or by multiples of the period. Throws InputError if the times do not fit.
+void set_stamps(const TextFile& file, const ReadOptions& options, Trajectory& poses);
+
+}  // namespace loopbench
