@@ -1,6 +1,7 @@
 #include "datasets/trajectory_inputs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "datasets/bags/bag_trajectory.hpp"
@@ -71,7 +72,8 @@ class InputReader {
     options.positions = option == "reference";
     options.findings = &findings;
     Trajectory out = read_trajectory(file, options);
-    if (estimate) options.stamp_unit = better_unit(out, findings, *estimate);
+    const double offset = option == "reference" ? -o_.offset : 0.0;
+    if (estimate) options.stamp_unit = better_unit(out, findings, *estimate, offset);
     if (estimate && options.stamp_unit != StampUnit::automatic) {
       findings = {};
       out = read_trajectory(file, options);
@@ -92,9 +94,24 @@ class InputReader {
                     .sort = o_.sort,
                     .drop_invalid = o_.drop_invalid,
                     .stamp_unit = o_.stamp_unit};
-    const bool is_bag = names_bag(file.string());
-    if (times_ && !is_bag && takes_times(file, detect_format(file))) out.times = times_;
+    if (times_ && gets_times(file)) out.times = times_;
     return out;
+  }
+
+  static bool lacks_stamps(const std::filesystem::path& file) {
+    return !names_bag(file.string()) && takes_times(file, detect_format(file));
+  }
+
+  /// Whether the times are those of this file: it has no stamps, or it has numbers of frames and no
+  /// other file needs them.
+  bool gets_times(const std::filesystem::path& file) const {
+    if (names_bag(file.string())) return false;
+    if (lacks_stamps(file)) return true;
+    const auto needs_them = [&](const std::string& other) {
+      return !other.empty() && !names_bag(other) && lacks_stamps(root_.find(other));
+    };
+    return can_take_times(file, detect_format(file)) &&
+           std::ranges::none_of(std::array{o_.estimate, o_.frames, o_.reference}, needs_them);
   }
 
   void add_notes(const std::string& path, const ReadFindings& findings) {

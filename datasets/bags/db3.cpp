@@ -30,6 +30,11 @@ std::map<std::int64_t, BagTopic> topics_of(const SqliteFile& db) {
 BagSummary read_db3(const OpenedFile& file, const WantsTopic& wants, const VisitMessage& visit) {
   BagSummary out;
   const SqliteFile db = open_sqlite(file);
+  if (has_tables(db, {"Node", "Link"})) {
+    throw file.error(
+        "is a database of RTAB-Map, expected its export: rtabmap-export --poses --poses_format 10 "
+        "FILE (rows of TUM with the id of the node), or --poses_format 4 (g2o with the closures)");
+  }
   if (!has_tables(db, {"topics", "messages"})) {
     throw file.error(
         "is an SQLite file without readable tables topics and messages, expected a ROS 2 bag");

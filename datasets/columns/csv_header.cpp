@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <numbers>
 
 #include "datasets/columns/covariance_columns.hpp"
 #include "datasets/columns/csv_names.hpp"
+#include "datasets/columns/pose_names.hpp"
 
 namespace loopbench {
 namespace {
@@ -28,70 +30,6 @@ std::vector<std::string> header_names(std::string_view header) {
   }
   return out;
 }
-
-std::string shortened(const std::string& name) {
-  constexpr std::size_t kMost = 40;
-  return name.size() > kMost ? name.substr(0, kMost) + "..." : name;
-}
-
-struct PoseNames {
-  std::vector<std::string> names;
-  std::vector<std::optional<PoseColumn>> meanings;
-
-  const PoseColumn& meaning(std::size_t i) const { return *meanings[i]; }
-
-  /// Columns of the header with this role and rank.
-  std::vector<std::size_t> with(Role role, NameRank rank) const {
-    std::vector<std::size_t> out;
-    for (std::size_t i = 0; i < meanings.size(); ++i) {
-      if (meanings[i] && meanings[i]->role == role && meanings[i]->rank == rank) out.push_back(i);
-    }
-    return out;
-  }
-
-  /// Columns of the lowest rank with this role.
-  std::vector<std::size_t> best(Role role) const {
-    for (const NameRank rank :
-         {NameRank::usual, NameRank::rare, NameRank::whole_seconds, NameRank::nanoseconds}) {
-      if (auto out = with(role, rank); !out.empty()) return out;
-    }
-    return {};
-  }
-
-  bool has(Role role) const { return !best(role).empty(); }
-
-  bool has_any(Role first, std::size_t count) const {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (has(after(first, i))) return true;
-    }
-    return false;
-  }
-
-  /// Whether the header has latitude, longitude and height instead of x, y and z.
-  bool is_geodetic() const { return !has_any(Role::x, 3) && has(Role::latitude); }
-
-  /// Roles of a pose, in the order of kPoseColumns.
-  std::vector<Role> roles(bool with_rotation) const {
-    std::vector<Role> out{Role::time};
-    const Role first = is_geodetic() ? Role::latitude : Role::x;
-    for (std::size_t i = 0; i < 3; ++i) out.push_back(after(first, i));
-    for (std::size_t i = 0; with_rotation && i < 4; ++i) out.push_back(after(Role::qw, i));
-    return out;
-  }
-
-  /// Names of columns that have no meaning; `used` are the indices of others.
-  std::string unknown(const std::vector<std::size_t>& used = {}) const {
-    constexpr std::size_t kMost = 6;
-    std::string out;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const bool is_used = used.empty() ? meanings[i].has_value() : std::ranges::count(used, i) > 0;
-      if (is_used || names[i].empty()) continue;
-      if (++count <= kMost) out += (count == 1 ? "" : ", ") + shortened(names[i]);
-    }
-    return out + (count > kMost ? ", ..." : "");
-  }
-};
 
 /// Columns with covariance_names(); sets `why_not` if some are missing.
 std::vector<std::size_t> covariance_indices(const PoseNames& all,
@@ -133,6 +71,7 @@ std::string why_not_understood(const PoseNames& all, bool with_rotation) {
       std::string accepted = "m, cm or mm";
       if (role == Role::time) accepted = "s, ms, us or ns";
       if (role == Role::latitude || role == Role::longitude) accepted = "deg";
+      if (role >= Role::roll) accepted = "rad or deg";
       return fmt::format("has a header with unit {} in '{}', expected {}",
                          shortened(wrong),
                          shortened(all.names[found[0]]),
@@ -151,13 +90,14 @@ std::string why_not_understood(const PoseNames& all, bool with_rotation) {
 std::optional<std::size_t> nanoseconds_column(const PoseNames& all, std::string& why_not) {
   const std::size_t time = all.best(Role::time).front();
   const std::vector<std::size_t> partners = all.with(Role::time, NameRank::nanoseconds);
-  const auto [role, rank, exponent, per_metre, wrong_unit] = all.meaning(time);
+  const NameRank rank = all.meaning(time).rank;
   if (rank == NameRank::nanoseconds || partners.empty()) return std::nullopt;
   const bool is_split = rank == NameRank::whole_seconds;
   if (!is_split && !all.with(Role::time, NameRank::whole_seconds).empty())
     return std::nullopt;  // stated twice
   const bool is_nanoseconds = all.meaning(partners[0]).time_exponent == -9;
-  if (is_split && partners.size() == 1 && is_nanoseconds && exponent == 0) return partners[0];
+  if (is_split && partners.size() == 1 && is_nanoseconds && all.meaning(time).time_exponent == 0)
+    return partners[0];
   why_not = fmt::format("has a header with time in '{}' and '{}', expected one, or secs and nsecs",
                         shortened(all.names[time]),
                         shortened(all.names[partners[0]]));
@@ -194,6 +134,21 @@ std::string prefer_message_stamps(PoseNames& all) {
   return out;
 }
 
+void set_indices(const PoseNames& all, CsvColumns& columns) {
+  std::size_t count = 0;
+  for (const Role role : all.roles(columns.has_rotation)) {
+    const std::size_t found = all.best(role).front();
+    if (role < Role::roll) {
+      columns.index[count++] = found;
+      continue;
+    }
+    columns.angles.push_back(found);
+    if (all.meaning(found).is_in_degrees) columns.per_radian = 180.0 / std::numbers::pi;
+  }
+  columns.lacks_z = columns.angles.size() == 1;
+  if (columns.lacks_z) columns.index[3] = columns.index[2];  // not read
+}
+
 }  // namespace
 
 void split_columns(std::string_view text, std::vector<std::string_view>& out) {
@@ -228,17 +183,20 @@ CsvHeader csv_header(std::string_view header) {
   }
   PoseNames all;
   all.names = header_names(header);
+  CsvColumns columns;
+  columns.has_more = !all.names.empty() && all.names.back().starts_with('*');
+  if (columns.has_more) all.names.pop_back();
   for (const std::string& name : all.names) all.meanings.push_back(pose_column(name));
   CsvHeader out;
   out.width = all.names.size();
-  CsvColumns columns;
   assume_time(all, columns);
   const std::string other_times = prefer_message_stamps(all);
   out.names_time = all.has(Role::time);
   out.names_position = all.has_any(Role::x, 3);
   out.names_quaternion = all.has_any(Role::qw, 4);
   out.why_not = why_not_understood(all, true);
-  columns.has_rotation = out.names_quaternion;
+  const std::vector<Role> angles = all.angles();
+  columns.has_rotation = out.names_quaternion || !angles.empty();
   if (!why_not_understood(all, columns.has_rotation).empty()) return out;
   columns.is_geodetic = all.is_geodetic();
   out.names_position |= columns.is_geodetic;
@@ -251,17 +209,16 @@ CsvHeader csv_header(std::string_view header) {
     out.why_not = why_not;
     return out;
   }
-  std::size_t count = 0;
-  for (const Role role : all.roles(columns.has_rotation)) {
-    columns.index[count++] = all.best(role).front();
-  }
+  set_indices(all, columns);
   columns.time_exponent = all.meaning(columns.index[0]).time_exponent;
   for (std::size_t i = 0; i < columns.per_metre.size(); ++i) {
     columns.per_metre[i] = all.meaning(columns.index[1 + i]).per_metre;
   }
   columns.names = all.names;
+  const bool has_quaternion = columns.has_rotation && angles.empty();
   std::vector<std::size_t> used(columns.index.begin(),
-                                columns.index.begin() + (columns.has_rotation ? 8 : 4));
+                                columns.index.begin() + (has_quaternion ? 8 : 4));
+  used.insert(used.end(), columns.angles.begin(), columns.angles.end());
   used.insert(used.end(), columns.covariance.begin(), columns.covariance.end());
   for (const auto& index : {columns.nanoseconds, columns.fix}) {
     if (index) used.push_back(*index);

@@ -28,6 +28,12 @@ struct CsvColumns {
   bool names_frames = false;                 ///< the time is in a column such as frame_id or image
   std::string time_column = {};              ///< name of the time, if others name times, too
   std::string ignored = {};                  ///< names of columns that are not read
+  /// Instead of a quaternion: roll, pitch and yaw with R = Rz(yaw) Ry(pitch) Rx(roll), or the
+  /// heading of a planar pose, which has no z. Empty: quaternion.
+  std::vector<std::size_t> angles = {};
+  double per_radian = 1.0;  ///< unit of the angles
+  bool lacks_z = false;     ///< z is 0
+  bool has_more = false;    ///< rows can have further columns: the header ends in a name as *covar
 };
 
 struct CsvHeader {
@@ -44,9 +50,11 @@ struct CsvHeader {
 /// taken if a rare one (epoch, rx) is present, too. Without any column of a quaternion, the rows
 /// are positions; instead of x, y and z they can have latitude (lat), longitude (lon) and height
 /// (alt). cov_x_x, cov_x_y, ... cov_yaw_yaw are the upper triangle of a covariance, which has to be
-/// complete. If only the time is missing, it is in a column such as frame_id, id or image, or else
-/// in the first column, if no other one is unknown. The stamp of a message (header.stamp) is taken
-/// rather than the time of its receipt. Columns with an empty name are ignored.
+/// complete. Without a quaternion, roll, pitch and yaw are the rotation (in radians unless the unit
+/// is deg), and x, y and theta (yaw, heading) are a planar pose. If only the time is missing, it is
+/// in a column such as frame_id, id or image, or else in the first column, if no other one is
+/// unknown. The stamp of a message (header.stamp) is taken rather than the time of its receipt.
+/// Columns with an empty name are ignored.
 CsvHeader csv_header(std::string_view header);
 
 /// Splits a row or a header at commas, or at blanks if it has none. Quotes around a column are

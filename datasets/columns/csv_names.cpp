@@ -25,11 +25,15 @@ constexpr std::array kSpellings{
     Spelling{"lon|lng|long|*longitude", "", Role::longitude},
     Spelling{"alt|h|height|*altitude", "", Role::height},
     Spelling{"*statusstatus", "", Role::fix},  // of a NavSatFix
+    Spelling{"roll", "", Role::roll},
+    Spelling{"pitch", "", Role::pitch},
+    Spelling{"yaw|theta|heading", "", Role::yaw},
 };
 constexpr std::string_view kUsualStamps = "t|time|times|stamp|timestamp|timestamps";
 constexpr std::string_view kRareStamps = "epoch|*headerstamp|ts|stamps";
 constexpr std::string_view kStampsWithUnit = "|t|time|stamp|timestamp|epoch|*headerstamp";
 constexpr std::string_view kDegreeUnits = "|deg|degree|degrees|\u00b0";
+constexpr std::string_view kRadianUnits = "|rad|radian|radians";
 constexpr std::array<std::pair<std::string_view, double>, 3> kPerMetre{
     {{"|m|meter|meters|metre|metres", 1.0}, {"cm", 100.0}, {"mm", 1000.0}}};
 constexpr std::array<std::pair<std::string_view, int>, 4> kTimeExponents{
@@ -82,6 +86,9 @@ NamedColumn named_column(std::string_view name) {
     if (c != ' ') out.unit += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   if (out.base == "q" && is_one_of(out.unit, "0|1|2|3")) out = {"q" + out.unit, {}};
+  if (out.base.ends_with("position") && is_one_of(out.unit, "0|1|2")) {  // of PX4
+    out = {out.base + "xyz"[out.unit.front() - '0'], {}};
+  }
   return out;
 }
 
@@ -127,6 +134,9 @@ std::optional<PoseColumn> spelled_column(const NamedColumn& name) {
       if (!per_metre) out.wrong_unit = name.unit;
     } else if (first == Role::latitude || first == Role::longitude) {
       if (!is_one_of(name.unit, kDegreeUnits)) out.wrong_unit = name.unit;
+    } else if (first >= Role::roll && !is_one_of(name.unit, kRadianUnits)) {
+      out.is_in_degrees = is_one_of(name.unit, kDegreeUnits);
+      if (!out.is_in_degrees) out.wrong_unit = name.unit;
     }
     return out;
   }
@@ -162,10 +172,13 @@ std::optional<PoseColumn> pose_column(std::string_view full_name) {
   const std::size_t suffix = name.rfind('_');
   if (suffix == name.npos || !full.unit.empty()) return std::nullopt;
   const NamedColumn stem{plain_name(name.substr(0, suffix)), plain_name(name.substr(suffix))};
-  if (stem.base.empty() || !unit_value(stem.unit, kPerMetre)) return std::nullopt;
-  const auto column = spelled_column(stem);
+  if (stem.base.empty()) return std::nullopt;
+  const bool is_length = unit_value(stem.unit, kPerMetre).has_value();
+  const bool is_angle = is_one_of(stem.unit, "deg|rad");
+  const auto column = is_length || is_angle ? spelled_column(stem) : std::nullopt;
   const bool is_position = column && Role::x <= column->role && column->role <= Role::z;
-  return is_position ? column : std::nullopt;
+  const bool is_rotation = column && Role::roll <= column->role;
+  return (is_length && is_position) || (is_angle && is_rotation) ? column : std::nullopt;
 }
 
 bool names_frames(std::string_view name) {

@@ -10,9 +10,38 @@
 namespace loopbench {
 
 /// Meaning of a column. The first eight are those of kPoseColumns.
-enum class Role { time, x, y, z, qw, qx, qy, qz, latitude, longitude, height, fix };
-constexpr std::array kRoleNames{
-    "time", "x", "y", "z", "qw", "qx", "qy", "qz", "latitude", "longitude", "height", "fix"};
+enum class Role {
+  time,
+  x,
+  y,
+  z,
+  qw,
+  qx,
+  qy,
+  qz,
+  latitude,
+  longitude,
+  height,
+  fix,
+  roll,
+  pitch,
+  yaw
+};
+constexpr std::array kRoleNames{"time",
+                                "x",
+                                "y",
+                                "z",
+                                "qw",
+                                "qx",
+                                "qy",
+                                "qz",
+                                "latitude",
+                                "longitude",
+                                "height",
+                                "fix",
+                                "roll",
+                                "pitch",
+                                "yaw"};
 
 inline Role after(Role first, std::size_t offset) {
   return static_cast<Role>(static_cast<std::size_t>(first) + offset);
@@ -26,6 +55,7 @@ struct PoseColumn {
   NameRank rank = NameRank::usual;
   std::optional<int> time_exponent = {};  ///< stated unit of time, 10^exponent [s]
   double per_metre = 1.0;                 ///< unit of a position
+  bool is_in_degrees = false;             ///< stated unit of an angle; otherwise radians
   std::string wrong_unit = {};            ///< stated, but not supported
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "datasets/columns/csv_header.hpp"
 #include "datasets/columns/stamps.hpp"
 #include "datasets/core/params.hpp"
+#include "datasets/core/se3.hpp"
 
 namespace loopbench {
 
@@ -42,8 +44,11 @@ void reject_mixed_rows(const TextFile& file,
                      "has a rotation, expected a zero quaternion (positions without rotation) as "
                      "in the rows above (or --drop-invalid)");
   }
-  file.repaired.invalid += above.size();
-  file.repaired.covariances.clear();
+  ReadFindings& found = file.repaired;
+  found.invalid += above.size();
+  found.dropped.resize(found.rows);  // all rows above
+  std::iota(found.dropped.begin(), found.dropped.end(), std::size_t{0});
+  found.covariances.clear();
   above.clear();
 }
 
@@ -89,7 +94,30 @@ bool StampOrder::is_later(double& stamp, std::string_view word) const {
   return true;
 }
 
-void StampOrder::reject_or_drop(double stamp, std::size_t line) const {
+bool agrees_with_last(const Trajectory& poses, const Pose& again) {
+  constexpr std::size_t kRecent = 8;
+  constexpr double kMost = 2.0;
+  if (poses.empty()) return false;
+  const auto distance = [](const Pose& a, const Pose& b) {
+    return (a.translation - b.translation).norm();
+  };
+  const auto angle = [](const Pose& a, const Pose& b) {
+    return has_rotation(a) && has_rotation(b) ? a.rotation.angularDistance(b.rotation) : 0.0;
+  };
+  double longest = 0.0, widest = 0.0;
+  for (std::size_t i = poses.size() - 1; i > 0 && poses.size() - i < kRecent; --i) {
+    const Pose& before = poses[i - 1].world_from_body;
+    longest = std::max(longest, distance(before, poses[i].world_from_body));
+    widest = std::max(widest, angle(before, poses[i].world_from_body));
+  }
+  const Pose& last = poses.back().world_from_body;
+  return distance(last, again) <= kMost * longest && angle(last, again) <= kMost * widest;
+}
+
+void StampOrder::reject_or_drop(double stamp,
+                                std::size_t line,
+                                const Trajectory* poses,
+                                const Pose* pose) {
   const std::string on_line = " on line " + std::to_string(last_line_);
   if (stamp < last_stamp_) {
     throw file_.error(line,
@@ -98,11 +126,19 @@ void StampOrder::reject_or_drop(double stamp, std::size_t line) const {
                           ", expected increasing stamps (--sort, or sort: true in a config)");
   }
   if (options_.repeats == Repeats::refuse) {
-    const std::string few = few_stamps(file_, column_);
+    const std::string few = has_enough_stamps_ ? "" : few_stamps(file_, column_);
     if (!few.empty()) throw file_.error(line, few);
+    has_enough_stamps_ = true;
+    if (poses != nullptr && agrees_with_last(*poses, *pose)) {
+      ++file_.repaired.agreeing;
+      return;
+    }
     throw file_.error(line,
                       "stamp " + to_text(stamp) + " is already" + on_line +
-                          ", expected increasing stamps (or repeats: keep_first, keep_last)");
+                          (poses == nullptr ? ", expected increasing times"
+                                            : " with another pose, expected increasing stamps "
+                                              "(--repeats keep_first or keep_last, or repeats: in "
+                                              "a config)"));
   }
   ++file_.repaired.repeated;
 }

@@ -66,15 +66,21 @@ inline bool follows(const Trajectory& a, const Trajectory& b, bool in_any_order)
 /// Calls read(line) for every line of data; drops those that throw InvalidRow, if `options` say so.
 template <class Read>
 void for_each_row(TextFile& file, const ReadOptions& options, Read read) {
-  for (Line line; file.next(line);) {
+  ReadFindings& found = file.repaired;
+  for (Line line; file.next(line); ++found.rows) {
     try {
       read(line);
     } catch (const InvalidRow& error) {
       if (!options.drop_invalid) throw with_remedy(error);
-      ++file.repaired.invalid;
+      ++found.invalid;
+      found.dropped.push_back(found.rows);
     }
   }
 }
+
+/// Whether a pose with the stamp of the last one differs from it by no more than twice the largest
+/// motion between the last eight poses, in position and in rotation.
+bool agrees_with_last(const Trajectory& poses, const Pose& again);
 
 /// Enforces strictly increasing stamps. Errors state both lines.
 class StampOrder {
@@ -88,20 +94,25 @@ class StampOrder {
   /// doubles. Throws InputError.
   void put(
       double stamp, std::string_view word, std::size_t line, const Pose& pose, Trajectory& poses) {
-    if (accepts(stamp, word, line) || poses.empty()) {
+    if (accepts(stamp, word, line, &poses, &pose) || poses.empty()) {
       poses.push_back({last_stamp_, pose});
     } else if (options_.repeats == Repeats::keep_last) {
       poses.back().world_from_body = pose;
     }
   }
 
-  /// Returns false if `stamp` repeats the last one, which is not kept. Throws InputError.
-  bool accepts(double stamp, std::string_view word, std::size_t line) {
+  /// Returns false if `stamp` repeats the last one, which is not kept. A repeated stamp needs a
+  /// pose that agrees with the last one of `poses`. Throws InputError.
+  bool accepts(double stamp,
+               std::string_view word,
+               std::size_t line,
+               const Trajectory* poses = nullptr,
+               const Pose* pose = nullptr) {
     const bool is_ordered = last_line_ == 0 || options_.sort || stamp > last_stamp_;
     if (!is_ordered && !is_later(stamp, word)) {
       const bool is_kept = options_.repeats == Repeats::keep_all && stamp == last_stamp_;
       if (!is_kept) {
-        reject_or_drop(stamp, line);
+        reject_or_drop(stamp, line, poses, pose);
         return false;
       }
     }
@@ -112,7 +123,7 @@ class StampOrder {
   }
 
  private:
-  void reject_or_drop(double stamp, std::size_t line) const;
+  void reject_or_drop(double stamp, std::size_t line, const Trajectory* poses, const Pose* pose);
   bool is_later(double& stamp, std::string_view word) const;
 
   const TextFile& file_;
@@ -122,6 +133,7 @@ class StampOrder {
   double last_stamp_ = 0.0;
   std::string last_word_;
   std::size_t last_line_ = 0;
+  bool has_enough_stamps_ = false;  // checked once
 };
 
 }  // namespace loopbench

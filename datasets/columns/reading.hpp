@@ -30,8 +30,9 @@ inline auto choices(Format) {
 
 /// Handling of a pose with the same stamp as the previous one, which occurs in published files. The
 /// reader of TUM keeps the last, evo all. Decreasing stamps, and repeated stamps in a times file,
-/// are always rejected. `keep_all` is not a choice of users, because only the association of evo
-/// accepts equal stamps.
+/// are always rejected. `refuse` accepts a pose that agrees with the previous one
+/// (agrees_with_last()), and keeps the first of the two. `keep_all` is not a choice of users,
+/// because only the association of evo accepts equal stamps.
 enum class Repeats { refuse, keep_first, keep_last, keep_all };
 inline auto choices(Repeats) {
   return std::array{std::pair{"refuse", Repeats::refuse},
@@ -53,6 +54,19 @@ inline auto choices(StampUnit) {
 /// frames, or multiples of the period for the numbers of rows.
 enum class Clock { stamps, ids, rows };
 
+/// Scales of matrices [scale R | t], which were removed from their rotations.
+struct MatrixScales {
+  std::size_t rows = 0;
+  double least = 1.0;
+  double largest = 1.0;
+
+  void add(const MatrixScales& more) {
+    least = rows == 0 ? more.least : std::min(least, more.least);
+    largest = rows == 0 ? more.largest : std::max(largest, more.largest);
+    rows += more.rows;
+  }
+};
+
 /// Remarks of the readers, and the corrections that they made.
 struct ReadFindings {
   double off_unit = 0.0;                      ///< maximum | |q| - 1 | before normalisation
@@ -65,8 +79,15 @@ struct ReadFindings {
   std::vector<Matrix6> covariances = {};
   bool assumed_axes = false;  ///< the file does not state their convention
   Clock clock = Clock::stamps;
-  std::size_t invalid = 0;                        ///< rows dropped by `drop_invalid`
-  std::size_t unsorted = 0;                       ///< rows moved by `sort`
+  std::size_t invalid = 0;                ///< rows dropped by `drop_invalid`
+  std::size_t rows = 0;                   ///< of data, also those without a pose
+  std::vector<std::size_t> dropped = {};  ///< numbers of the invalid rows, from 0, ascending
+  std::size_t agreeing = 0;  ///< poses dropped because an agreeing one has the same stamp
+  /// Maximum deviation of matrices from orthonormal that was normalised, if above 1e-3.
+  double off_orthonormal = 0.0;
+  MatrixScales scales = {};
+  std::size_t angles = 0;    ///< columns of angles in place of a quaternion: 3, or 1 for a heading
+  std::size_t unsorted = 0;  ///< rows moved by `sort`
   std::vector<StampUnit> units = {StampUnit::s};  ///< all that fit; the first one was used
   bool has_clear_unit = true;                     ///< the first of `units` fits best
   std::string time_column = {};                   ///< that was chosen among several
@@ -76,7 +97,12 @@ struct ReadFindings {
   void append(const ReadFindings& part) {
     off_unit = std::max(off_unit, part.off_unit);
     repeated += part.repeated;
+    for (const std::size_t row : part.dropped) dropped.push_back(rows + row);
+    rows += part.rows;
     invalid += part.invalid;
+    agreeing += part.agreeing;
+    off_orthonormal = std::max(off_orthonormal, part.off_orthonormal);
+    if (part.scales.rows > 0) scales.add(part.scales);
     without_fix += part.without_fix;
     covariances.insert(covariances.end(), part.covariances.begin(), part.covariances.end());
   }
@@ -84,8 +110,8 @@ struct ReadFindings {
 
 struct ReadOptions {
   Format format = Format::automatic;
-  /// Times file for poses without stamps, one time per line. Without it stamps are multiples of
-  /// `period`.
+  /// Times file for poses without stamps, one time per line: of rows, of numbers of frames and of
+  /// vertices. Without it stamps are multiples of `period`.
   std::optional<std::filesystem::path> times;
   double period = 0.1;  ///< between poses of KITTI and consecutive ids of g2o [s]
   Repeats repeats = Repeats::refuse;

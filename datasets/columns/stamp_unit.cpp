@@ -94,6 +94,8 @@ FittingUnits fitting_units(const TextFile& file, std::size_t column) {
             " is in 2100 or later, perhaps the key of a pose in GTSAM: expected its time");
   }
   if (out.units.empty()) out.units = {stamps.size >= 1e16 ? StampUnit::ns : StampUnit::s};
+  const bool is_decimal = !stamps.are_whole && fit_of(StampUnit::s) >= 0;
+  if (is_decimal) out.units = {StampUnit::s};
   if (fit_of(out.units.front()) == kCertain) out.units.resize(1);
   out.is_clear = out.units.size() < 2 || fit_of(out.units[0]) > fit_of(out.units[1]);
   return out;
@@ -110,16 +112,29 @@ int stamp_exponent(const TextFile& file, std::size_t column, const ReadOptions& 
   return exponent_of(file.repaired.units.front());
 }
 
-bool has_frame_numbers(const TextFile& file, std::size_t column) {
+namespace {
+
+bool are_small_and_whole(const SampledStamps& stamps) {
   constexpr double kMost = 1e7, kLargestStep = 50.0;
-  const SampledStamps stamps = sampled(file, column);
-  return !stamps.first.empty() && stamps.are_whole && stamps.are_integers && stamps.size < kMost &&
+  return !stamps.first.empty() && stamps.are_whole && stamps.size < kMost &&
          stamps.interval <= kLargestStep;
+}
+
+}  // namespace
+
+bool has_frame_numbers(const TextFile& file, std::size_t column) {
+  const SampledStamps stamps = sampled(file, column);
+  return stamps.are_integers && are_small_and_whole(stamps);
+}
+
+bool can_be_frame_numbers(const TextFile& file, std::size_t column) {
+  return are_small_and_whole(sampled(file, column));
 }
 
 StampUnit better_unit(const Trajectory& own,
                       const ReadFindings& findings,
-                      const Trajectory& other) {
+                      const Trajectory& other,
+                      double offset) {
   constexpr double kClearly = 5.0;
   if (findings.units.size() < 2 || own.empty() || other.empty()) return StampUnit::automatic;
   const int used = exponent_of(findings.units.front());
@@ -127,7 +142,8 @@ StampUnit better_unit(const Trajectory& own,
   StampUnit out = StampUnit::automatic;
   for (const StampUnit unit : findings.units) {
     const double factor = std::pow(10.0, exponent_of(unit) - used);
-    const double begin = own.front().stamp * factor, end = own.back().stamp * factor;
+    const double begin = own.front().stamp * factor + offset;
+    const double end = own.back().stamp * factor + offset;
     const double common = std::min(end, other.back().stamp) - std::max(begin, other.front().stamp);
     const double longer = std::max(end - begin, other.back().stamp - other.front().stamp);
     const double share = longer > 0.0 ? std::max(0.0, common / longer) : 0.0;
@@ -135,6 +151,7 @@ StampUnit better_unit(const Trajectory& own,
     if (share > best) out = unit;
     best = std::max(best, share);
   }
+  if (offset != 0.0 && before > 0.0) return StampUnit::automatic;
   const bool is_better = best > (findings.has_clear_unit ? kClearly * before : 0.0);
   return is_better ? out : StampUnit::automatic;
 }

@@ -43,10 +43,15 @@ TrajectoryFile read_bag_file(const std::filesystem::path& file, const ReadOption
       if (pose.nanoseconds == 0) {
         throw InputError(name + ": several messages have stamp 0: header.stamp was not recorded");
       }
-      if (options.repeats == Repeats::refuse) {
+      const bool is_refused = options.repeats == Repeats::refuse;
+      if (is_refused && agrees_with_last(out.poses, pose.frame_from_child)) {
+        ++findings.agreeing;
+        continue;
+      }
+      if (is_refused) {
         throw InputError(name + ": stamp " + seconds_text(pose.nanoseconds) +
-                         " has two poses, expected increasing stamps (or repeats: keep_first, "
-                         "keep_last)");
+                         " has two poses, expected increasing stamps (--repeats keep_first or "
+                         "keep_last, or repeats: in a config)");
       }
       ++findings.repeated;
       if (options.repeats == Repeats::keep_first) continue;

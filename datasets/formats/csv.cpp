@@ -1,8 +1,11 @@
 #include "datasets/formats/csv.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -11,40 +14,13 @@
 #include "datasets/columns/pose_rules.hpp"
 #include "datasets/columns/stamp_unit.hpp"
 #include "datasets/columns/stamps.hpp"
+#include "datasets/formats/csv_row.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/format_registry.hpp"
 #include "datasets/formats/written_rows.hpp"
 
 namespace loopbench {
 namespace {
-
-using CsvRow = std::vector<std::string_view>;
-
-void split_row(const TextFile& file, const Line& line, const CsvColumns& columns, CsvRow& row) {
-  split_columns(line.text, row);
-  if (row.size() + 1 == columns.width && line.text.ends_with(',')) row.emplace_back();
-  if (row.size() == columns.width) return;
-  throw file.error(line.number,
-                   "has " + columns_text(row.size()) + ", expected " +
-                       std::to_string(columns.width) + " as in the header" +
-                       (line.unterminated ? " (the file ends in the middle of this line)" : ""));
-}
-
-/// The number in column `index` of a row, or in the name of an image there.
-double csv_number(const TextFile& file,
-                  const Line& line,
-                  const CsvColumns& columns,
-                  const CsvRow& row,
-                  std::size_t index) {
-  const std::string& name = columns.names[index];
-  Line column = line;
-  column.text = index == columns.index[0] ? stamp_word(row[index]) : row[index];
-  Columns parsed(file, column, index);
-  const double out = parsed.number(name.c_str());
-  if (parsed.done()) return out;
-  throw file.error(line.number,
-                   "column " + name + ": '" + std::string(row[index]) + "' is not a number");
-}
 
 /// Whole seconds and a column of nanoseconds, as in messages of ROS.
 ReadStamp split_stamp(const TextFile& file,
@@ -86,22 +62,6 @@ bool has_fix(const TextFile& file, const Line& line, const CsvColumns& columns, 
   return false;
 }
 
-Matrix6 covariance_of_row(const TextFile& file,
-                          const Line& line,
-                          const CsvColumns& columns,
-                          const CsvRow& row) {
-  const Eigen::Index axes = columns.has_rotation ? 6 : 3;
-  Matrix6 out = Matrix6::Zero();
-  std::size_t k = 0;
-  for (Eigen::Index i = 0; i < axes; ++i) {
-    for (Eigen::Index j = i; j < axes; ++j) {
-      out(i, j) = out(j, i) = csv_number(file, line, columns, row, columns.covariance[k++]);
-    }
-  }
-  if (is_covariance(out, columns.has_rotation)) return out;
-  throw file.error(line.number, "covariance is not positive definite");
-}
-
 Trajectory read_csv_part(TextFile& file,
                          const CsvColumns& columns,
                          int exponent,
@@ -110,19 +70,25 @@ Trajectory read_csv_part(TextFile& file,
   StampOrder order(file, options, exponent, columns.index[0]);
   CsvRow row;
   std::array<double, kPoseColumns.size()> v{};
+  const bool has_quaternion = columns.has_rotation && columns.angles.empty();
   for_each_row(file, options, [&](const Line& line) {
     split_row(file, line, columns, row);
     if (!has_fix(file, line, columns, row)) return;
     const ReadStamp stamp = stamp_of_row(file, line, columns, row, exponent);
-    for (std::size_t i = 1; i < (columns.has_rotation ? v.size() : 4); ++i) {
+    const std::size_t numbers = has_quaternion ? v.size() : 4;
+    for (std::size_t i = 1; i < numbers; ++i) {
+      if (i == 3 && columns.lacks_z) continue;
       v[i] = csv_number(file, line, columns, row, columns.index[i]);
     }
     for (std::size_t i = 0; i < columns.per_metre.size(); ++i) v[1 + i] /= columns.per_metre[i];
     const Vector3 position(v[1], v[2], v[3]);
     if (columns.is_geodetic) require_degrees(file, line.number, position);
-    const Rotation rotation =
-        columns.has_rotation ? rotation_of_row(file, line, {v[4], v[5], v[6], v[7]}, out, options)
-                             : no_rotation();
+    Rotation rotation = no_rotation();
+    if (has_quaternion) {
+      rotation = rotation_of_row(file, line, {v[4], v[5], v[6], v[7]}, out, options);
+    } else if (columns.has_rotation) {
+      rotation = rotation_of_angles(file, line, columns, row);
+    }
     std::optional<Matrix6> covariance;
     if (!columns.covariance.empty()) covariance = covariance_of_row(file, line, columns, row);
     const bool is_split = columns.nanoseconds && stamp.exact;
@@ -166,8 +132,15 @@ std::optional<CsvColumns> csv_columns(const TextFile& file) {
   CsvRow row;
   if (reopened.next(line)) split_columns(line.text, row);
   if (!out) out = csv_header(header_of_ros2(row)).columns;
-  if (!out || row.size() != out->width) return std::nullopt;
+  if (!out || row.size() < out->width || (row.size() > out->width && !out->has_more)) {
+    return std::nullopt;
+  }
   return out;
+}
+
+std::size_t time_column(const TextFile& file, Format format) {
+  const auto csv = format == Format::csv ? csv_columns(file) : std::nullopt;
+  return csv ? csv->index[0] : 0;
 }
 
 int csv_exponent(const TextFile& file, const CsvColumns& columns, const ReadOptions& options) {
@@ -211,6 +184,7 @@ Trajectory read_csv(TextFile& file, const ReadOptions& options) {
       [&](const Trajectory& a, const Trajectory& b) { return follows(a, b, options.sort); }));
   file.repaired.time_column = columns->time_column;
   file.repaired.ignored_columns = columns->ignored;
+  file.repaired.angles = columns->angles.size();
   if (columns->names_frames && !out.empty() && has_frame_numbers(file, columns->index[0])) {
     file.repaired.clock = Clock::ids;
   }

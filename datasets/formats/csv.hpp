@@ -14,6 +14,9 @@ namespace loopbench {
 /// names all columns of this row, or those of `ros2 topic echo --csv`. Call after skip_header().
 std::optional<CsvColumns> csv_columns(const TextFile& file);
 
+/// The column of the stamps: the first one, except in tables with a header.
+std::size_t time_column(const TextFile& file, Format format);
+
 /// The stamp of one row, in units of 10^exponent seconds.
 ReadStamp csv_stamp(const TextFile& file,
                     const Line& line,

@@ -7,6 +7,7 @@
 
 #include "datasets/columns/columns.hpp"
 #include "datasets/columns/csv_header.hpp"
+#include "datasets/columns/stamp_unit.hpp"
 #include "datasets/columns/stamps.hpp"
 #include "datasets/formats/csv.hpp"
 #include "datasets/formats/format_registry.hpp"
@@ -58,7 +59,7 @@ Format detect_by_numbers(const TextFile& file, const Line& line) {
 /// Whether the reader of `format` reads columns in this order and these units anyway.
 bool is_usual_order(Format format, const CsvColumns& columns) {
   using Order = std::array<std::size_t, 8>;
-  if (!columns.has_rotation || columns.nanoseconds ||
+  if (!columns.has_rotation || columns.nanoseconds || !columns.angles.empty() || columns.has_more ||
       columns.per_metre != std::array{1.0, 1.0, 1.0})
     return false;
   const int unit = columns.time_exponent.value_or(format == Format::euroc ? -9 : 0);
@@ -77,6 +78,14 @@ void check_header(const TextFile& file, const Line& line) {
   throw file.error(0, header.why_not);
 }
 
+/// Rejects a comment that names the columns of the rows below, if it is not understood.
+void check_comment(const TextFile& file, const Line& line) {
+  const CsvHeader header = csv_header(file.comment());
+  const bool names_columns =
+      header.names_time && header.names_position && header.width == count_columns(file, line);
+  if (names_columns && !header.columns) throw file.error(0, header.why_not);
+}
+
 }  // namespace
 
 Format detect_format(TextFile& file) {
@@ -89,6 +98,7 @@ Format detect_format(TextFile& file) {
     check_header(file, line);
   } else if (!columns || is_of_colmap(file, line)) {
     reject_known(file, line);
+    if (!columns) check_comment(file, line);
   }
   if (!columns) return detect_by_numbers(file, line);
   try {
@@ -118,10 +128,19 @@ Format detect_format(const std::filesystem::path& file) {
 
 bool takes_times(const std::filesystem::path& file, Format format) {
   const FormatEntry& entry = entry_of(format);
+  if (entry.read_file != nullptr)
+    return format != Format::bag && !entry.read_file(file, {}).has_stamps;
   if (entry.takes_times == nullptr) return false;
   TextFile text(file);
   text.skip_header();
   return entry.takes_times(text);
+}
+
+bool can_take_times(const std::filesystem::path& file, Format format) {
+  if (entry_of(format).read == nullptr) return false;
+  TextFile text(file);
+  text.skip_header();
+  return can_be_frame_numbers(text, time_column(text, format));
 }
 
 std::string why_no_common_time(const FileClock& one, const FileClock& other) {

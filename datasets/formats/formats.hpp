@@ -27,6 +27,10 @@ Format detect_format(const std::filesystem::path& file);
 /// file.
 bool takes_times(const std::filesystem::path& file, Format format);
 
+/// Whether the rows have stamps that can be numbers of frames: small whole numbers. They take those
+/// of a times file if no other file needs it.
+bool can_take_times(const std::filesystem::path& file, Format format);
+
 /// Why two files have no common time; empty if they have: stamps, ids, or equal numbers of rows.
 struct FileClock {
   std::string name;

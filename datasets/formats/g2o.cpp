@@ -109,14 +109,16 @@ PoseGraph read_g2o(TextFile& file, const InformationRules& rules) {
 }
 
 std::vector<double> vertex_stamps(const PoseGraph& graph, double period) {
-  constexpr int kIndexBits = 56;
+  constexpr int kSymbolBits = 56, kDoubleBits = 53;
   const std::vector<std::int64_t>& ids = graph.ids;
-  const bool has_symbols = !ids.empty() && ids.front() >> kIndexBits > 0;
+  const std::int64_t first = ids.empty() ? 0 : ids.front();
+  const int bits = first >> kSymbolBits > 0 ? kSymbolBits : kDoubleBits;
+  const bool is_large = first >> bits > 0;
   const auto index_of = [&](std::int64_t id) {
-    return has_symbols ? id & ((std::int64_t{1} << kIndexBits) - 1) : id;
+    return is_large ? id & ((std::int64_t{1} << bits) - 1) : id;
   };
   const bool is_ambiguous =
-      has_symbols && std::ranges::adjacent_find(ids, std::greater_equal{}, index_of) != ids.end();
+      is_large && std::ranges::adjacent_find(ids, std::greater_equal{}, index_of) != ids.end();
   std::vector<double> out;
   out.reserve(ids.size());
   for (const std::int64_t id : ids) {

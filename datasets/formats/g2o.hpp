@@ -77,7 +77,8 @@ TextWriter g2o_text(const PoseGraph& graph);
 
 /// Stamps of all vertices: id * period [s]. Of ids that are symbols of GTSAM (a letter in the
 /// highest byte, an index below) it is the index, or the position in the graph if several letters
-/// share indices.
+/// share indices. Of ids from 2^53 on, which a double does not resolve, it is the number in the
+/// lowest 53 bits.
 std::vector<double> vertex_stamps(const PoseGraph& graph, double period);
 
 /// Returns one pose per id, composed from the edges between consecutive ids, or along the fewest

@@ -42,7 +42,11 @@ TextWriter vertices_text(const TrajectoryFile& file, const std::string&) {
 }  // namespace
 
 FormatEntry g2o_format() {
-  return {.format = Format::g2o, .guess = is_graph, .read = read_vertices, .write = vertices_text};
+  return {.format = Format::g2o,
+          .guess = is_graph,
+          .read = read_vertices,
+          .takes_times = [](const TextFile&) { return true; },
+          .write = vertices_text};
 }
 
 }  // namespace loopbench

@@ -12,6 +12,7 @@
 #include "datasets/columns/columns.hpp"
 #include "datasets/columns/pose_rules.hpp"
 #include "datasets/columns/text_file.hpp"
+#include "datasets/formats/detect_format.hpp"
 #include "datasets/core/anchor.hpp"
 
 namespace loopbench {
@@ -41,6 +42,8 @@ inline constexpr std::array kPriorTags{
     PriorTag{"EDGE_PRIOR_SE2_XY", 2, false, 7, "7: EDGE_PRIOR_SE2_XY id x y and 3 of information"},
     PriorTag{"EDGE_SE2_XYPRIOR", 2, false, 7, "7: EDGE_SE2_XYPRIOR id x y and 3 of information"},
     PriorTag{"EDGE_POINTXYZ", 3, false, 11, "11: EDGE_POINTXYZ id x y z and 6 of information"},
+    PriorTag{
+        "EDGE_SE3_PRIORXYZ", 3, false, 11, "11: EDGE_SE3_PRIORXYZ id x y z and 6 of information"},
 };
 
 /// Reads a line whose tag is `word`; nullopt if that is no prior. Throws InputError for a wrong

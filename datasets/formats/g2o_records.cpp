@@ -60,17 +60,21 @@ const Tag& find_tag(const TextFile& file, const Line& line, std::string_view wor
   for (const Tag& tag : kTags) {
     if (tag.word == word) return tag;
   }
-  std::string known;
-  for (const Tag& tag : kTags) {
-    known += known.empty() ? "" : ", ";
-    known += tag.word;
+  if (word.find("PLANE") != std::string_view::npos) {
+    throw file.error(
+        line.number,
+        "found " + std::string(word) +
+            ", a plane as in dumps of hdl_graph_slam: expected a graph of poses (remove the lines "
+            "VERTEX_PLANE and EDGE_SE3_PLANE, and FIX of the id of a plane)");
   }
+  std::string known = "FIX";
+  for (const Tag& tag : kTags) known.append(", ").append(tag.word);
+  for (const PriorTag& tag : kPriorTags) known.append(", ").append(tag.word);
+  std::string what =
+      "unknown tag '" + std::string(word.substr(0, 40)) + "', expected one of " + known;
   const auto format = guess(file, line);
-  throw file.error(line.number,
-                   "unknown tag '" + std::string(word.substr(0, 40)) +
-                       "', expected FIX or one of " + known +
-                       (format && *format != Format::g2o ? " (looks like " + to_text(*format) + ")"
-                                                         : std::string()));
+  if (format && *format != Format::g2o) what += " (looks like " + to_text(*format) + ")";
+  throw file.error(line.number, what);
 }
 
 /// Parser for one line. Throws InputError with the columns required by the tag if one is missing.

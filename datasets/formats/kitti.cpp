@@ -1,11 +1,10 @@
 #include "datasets/formats/kitti.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/LU>
+#include <array>
 
 #include "datasets/columns/columns.hpp"
 #include "datasets/columns/parts.hpp"
+#include "datasets/columns/pose_matrix.hpp"
 #include "datasets/columns/pose_rules.hpp"
 #include "datasets/columns/stamp_unit.hpp"
 #include "datasets/columns/stamps.hpp"
@@ -21,20 +20,13 @@ constexpr std::array kKittiColumns{
 using Row = std::array<double, kKittiColumns.size()>;
 
 PoseMatrix matrix_of(const TextFile& file, std::size_t line, const Row& v) {
-  constexpr double kTolerance = 1e-3;
   PoseMatrix out;
   out.matrix() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(v.data());
-  const Matrix3 R = out.linear();
-  const double deviation = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
-  if (!(deviation <= kTolerance)) {
-    throw file.error(
-        line,
-        fmt::format("rotation deviates from orthonormal by {:.3g}, expected at most 0.001",
-                    deviation));
+  if (is_missing(out)) {
+    throw InvalidRow(file.error(line, "rotation matrix is zero, expected a rotation"));
   }
-  if (R.determinant() < 0.0) {
-    throw file.error(line, "determinant is -1 (a reflection), expected a rotation");
-  }
+  const std::string why = normalise_matrix(out, file.repaired);
+  if (!why.empty()) throw file.error(line, why);
   return out;
 }
 
@@ -77,7 +69,7 @@ Trajectory read_kitti_part(TextFile& file, const ReadOptions& options) {
   Trajectory out;
   out.reserve(file.estimated_lines(first_line(file)));
   each_row(file, options, 0, [&](double, std::string_view, const PoseMatrix& m, std::size_t) {
-    out.push_back({static_cast<double>(out.size() + file.repaired.invalid), pose_of(m)});
+    out.push_back({static_cast<double>(file.repaired.rows), pose_of(m)});
   });
   return out;
 }
@@ -116,13 +108,15 @@ Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
 }
 
 /// Whether a line has a 4 x 4 matrix, or a matrix after a stamp, whose first two rows begin with
-/// unit vectors.
+/// unit vectors or end the matrix with 0 0 0 1.
 bool is_other_matrix(const TextFile& file, const Line& line) {
   const std::size_t count = count_columns(file, line);
+  if (count != 13 && count != 16 && count != 17) return false;
   const std::size_t first = count == 16 ? 0 : 1;
-  return (count == 13 || count == 16 || count == 17) &&
-         is_unit_square(square_of_columns(file, line, first, 3)) &&
-         is_unit_square(square_of_columns(file, line, first + 4, 3));
+  const bool ends = count >= 16 && square_of_columns(file, line, first + 12, 3) == 0.0 &&
+                    square_of_columns(file, line, first + 15, 1) == 1.0;
+  return ends || (is_unit_square(square_of_columns(file, line, first, 3)) &&
+                  is_unit_square(square_of_columns(file, line, first + 4, 3)));
 }
 
 bool is_kitti(const TextFile& file, const Line& line) {

@@ -1,8 +1,8 @@
 /// KITTI odometry: the upper 3 x 4 block of world_from_camera row by row, 12 columns, or the 4 x 4
 /// matrix. A column more is a stamp, or the number of a frame (has_frame_numbers()). Without
 /// stamps, they are multiples of the period for the row or frame, or its line of a times file.
-/// Rotations must be orthonormal within 1e-3 and are converted to unit quaternions. Source: KITTI
-/// odometry devkit.
+/// Rotations must be orthonormal within 0.05 and are converted to unit quaternions; a scale is
+/// removed from them, and the findings state both. Source: KITTI odometry devkit.
 #pragma once
 
 #include <filesystem>

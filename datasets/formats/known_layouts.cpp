@@ -35,9 +35,6 @@ bool is_of_colmap(const TextFile& file, const Line& line) {
          std::isnan(square_of_columns(file, line, 9, 1));
 }
 
-namespace {
-
-/// Whether the first lines are the rows of a 4 x 4 matrix, perhaps below a line of numbers.
 bool has_matrix_lines(const TextFile& file) {
   TextFile reopened = file.reopened();
   Line line;
@@ -49,19 +46,13 @@ bool has_matrix_lines(const TextFile& file) {
   return begins && count_columns(file, line) == 4 && square_of_columns(file, line, 0, 3) == 0.0;
 }
 
-}  // namespace
-
 void reject_known(const TextFile& file, const Line& line) {
   const std::size_t count = count_columns(file, line);
   const auto is_unit = [&](std::size_t first, int n) {
     return is_unit_square(square_of_columns(file, line, first, n));
   };
   std::string what;
-  if (line.text.starts_with('{') || line.text.starts_with('[')) {
-    what =
-        "is JSON, expected rows of numbers; for a list of objects with t, x, y, z and a "
-        "quaternion: jq -r '.[] | [.t, .x, .y, .z, .qx, .qy, .qz, .qw] | @tsv' FILE > poses.txt";
-  } else if (is_of_colmap(file, line)) {
+  if (is_of_colmap(file, line)) {
     what =
         "has 10 columns as images.txt of COLMAP (camera_from_world): awk '!/^#/ && ++n%2 {print "
         "$1,$6,$7,$8,$3,$4,$5,$2}' FILE > images.tum; loopbench traj transform images.tum "
@@ -71,14 +62,17 @@ void reject_known(const TextFile& file, const Line& line) {
     what =
         "has 7 columns, a pose x y z qx qy qz qw without a stamp? Expected one in the first "
         "column: paste -d' ' TIMES FILE > poses.txt, with one time per line";
+  } else if (count == 7 && file.name().find(".traj") != std::string::npos) {
+    what =
+        "has 7 columns in a .traj file as of ARKitScenes: a stamp, a rotation vector and a "
+        "position "
+        "of camera_from_world: awk '{a=sqrt($2^2+$3^2+$4^2); s=a?sin(a/2)/a:0.5; print "
+        "$1,$5,$6,$7,$2*s,$3*s,$4*s,cos(a/2)}' OFMT=%.12g CONVFMT=%.17g FILE > rows.txt; loopbench "
+        "traj transform rows.txt --invert-poses -o poses.txt";
   } else if (count == 7) {
     what =
         "has 7 columns, a stamp, a position and three angles? Expected a quaternion; for the "
         "positions alone: awk '{print $1,$2,$3,$4}' FILE > poses.txt";
-  } else if ((count == 3 || count == 4) && has_matrix_lines(file)) {
-    what =
-        "has a 4 x 4 matrix over four lines, expected one line: awk 'NF == 4' FILE | "
-        "paste -d' ' - - - - > poses.txt";
   }
   if (what.empty()) return;
   throw file.error(line.number, what.replace(what.find("FILE"), 4, file.name()));

@@ -17,6 +17,9 @@ bool is_nanoseconds(std::string_view word);
 /// Whether a sum of squares is that of a unit vector or quaternion.
 bool is_unit_square(double square);
 
+/// Whether the first lines are the rows of a 4 x 4 matrix, perhaps below a line of numbers.
+bool has_matrix_lines(const TextFile& file);
+
 /// A number, a quaternion, a position, the number of a camera, and a name: images.txt of COLMAP.
 bool is_of_colmap(const TextFile& file, const Line& line);
 

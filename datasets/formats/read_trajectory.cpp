@@ -26,12 +26,20 @@ TrajectoryFile read_text_file(const std::filesystem::path& path, const ReadOptio
   file.skip_header();
   const Format format = options.format == Format::automatic ? detect_format(file) : options.format;
   const FormatEntry& entry = entry_of(format);
-  if (options.times && !(entry.takes_times != nullptr && entry.takes_times(file))) {
-    throw file.error(0, "has format " + to_text(format) + " with stamps, expected no times file");
+  const bool has_none = entry.takes_times != nullptr && entry.takes_times(file);
+  ReadOptions own = options;
+  if (options.times && !has_none) {
+    if (!can_be_frame_numbers(file, time_column(file, format))) {
+      throw file.error(0, "has format " + to_text(format) + " with stamps, expected no times file");
+    }
+    own.stamp_unit = StampUnit::s;
   }
-  TrajectoryFile out{.poses = entry.read(file, options), .format = format};
+  TrajectoryFile out{.poses = entry.read(file, own), .format = format};
   ReadFindings& findings = file.repaired;
-  if (findings.clock != Clock::stamps && !out.poses.empty()) set_stamps(file, options, out.poses);
+  if (options.times && !has_none) findings.clock = Clock::ids;
+  if (findings.clock != Clock::stamps && !out.poses.empty()) {
+    set_stamps(file.name(), options, findings, out.poses);
+  }
   out.has_stamps = findings.clock == Clock::stamps;
   out.covariances = std::move(findings.covariances);
   findings.covariances.clear();
@@ -87,29 +95,52 @@ void sort_rows(TrajectoryFile& file, const std::string& name, const ReadOptions&
   const auto stamp = [&](std::size_t i) { return file.poses[i].stamp; };
   std::ranges::stable_sort(order, {}, stamp);
   std::vector<std::size_t> kept;
-  std::size_t moved = 0, repeated = 0;
+  Trajectory sorted;
+  std::size_t moved = 0, repeated = 0, agreeing = 0;
   for (std::size_t k = 0; k < order.size(); ++k) {
     if (k > 0 && order[k] < order[k - 1]) ++moved;
     const bool repeats = !kept.empty() && stamp(order[k]) == stamp(kept.back()) &&
                          options.repeats != Repeats::keep_all;
-    if (repeats && options.repeats == Repeats::refuse) {
+    const bool agrees = repeats && options.repeats == Repeats::refuse &&
+                        agrees_with_last(sorted, file.poses[order[k]].world_from_body);
+    agreeing += agrees ? 1 : 0;
+    if (repeats && !agrees && options.repeats == Repeats::refuse) {
       throw InputError(name + ": stamp " + to_text(stamp(order[k])) +
-                       " is in two rows, expected different stamps (or repeats: keep_first, "
-                       "keep_last)");
+                       " is in two rows with different poses, expected different stamps "
+                       "(--repeats keep_first or keep_last, or repeats: in a config)");
     }
-    repeated += repeats ? 1 : 0;
+    repeated += repeats && !agrees ? 1 : 0;
     if (repeats && options.repeats == Repeats::keep_last) kept.back() = order[k];
-    if (!repeats) kept.push_back(order[k]);
+    if (repeats) continue;
+    kept.push_back(order[k]);
+    sorted.push_back(file.poses[order[k]]);
   }
-  if (moved > 0 || repeated > 0) file = selected(file, kept);
+  if (kept.size() < file.poses.size() || moved > 0) file = selected(file, kept);
   if (options.findings == nullptr) return;
   options.findings->unsorted = moved;
   options.findings->repeated += repeated;
+  options.findings->agreeing += agreeing;
 }
 
 void check_period(const ReadOptions& options) {
   if (GreaterThan{0.0}.holds(options.period)) return;
   throw OptionError("period", "period = " + to_text(options.period) + ": expected period > 0");
+}
+
+}  // namespace
+
+namespace {
+
+std::string scales_text(const MatrixScales& scales) {
+  constexpr double kEqual = 1e-4;
+  const bool is_common = scales.largest - scales.least <= kEqual * scales.largest;
+  return fmt::format(
+      "matrices of {} rows have a scale of {:.5g}{}, which is removed from the rotations; "
+      "positions "
+      "are as in the file",
+      scales.rows,
+      scales.least,
+      is_common ? "" : fmt::format(" to {:.5g}", scales.largest));
 }
 
 }  // namespace
@@ -123,7 +154,17 @@ std::vector<std::string> reading_notes(const ReadFindings& findings) {
   note(findings.invalid > 0, fmt::format("invalid rows dropped: {}", findings.invalid));
   note(findings.unsorted > 0,
        fmt::format("rows sorted, places out of order: {}", findings.unsorted));
+  note(findings.agreeing > 0,
+       fmt::format("{} repeated stamps with agreeing poses, of which the first is kept",
+                   findings.agreeing));
+  note(
+      findings.off_orthonormal > 0.0,
+      fmt::format("rotation matrices are normalised, they deviate from orthonormal by up to {:.2g}",
+                  findings.off_orthonormal));
+  note(findings.scales.rows > 0, scales_text(findings.scales));
   note(unit == StampUnit::ms || unit == StampUnit::us, "stamps are read in " + to_text(unit));
+  note(findings.angles == 1, "planar poses x, y and heading");
+  note(findings.angles == 3, "rotations are Rz(yaw) Ry(pitch) Rx(roll)");
   note(!findings.time_column.empty(), "time is " + findings.time_column);
   note(!findings.ignored_columns.empty(), "columns that are not read: " + findings.ignored_columns);
   return out;
@@ -141,7 +182,9 @@ Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions&
 TrajectoryFile read_trajectory_file(const std::filesystem::path& path, const ReadOptions& options) {
   check_period(options);
   if (const FormatEntry* const other = file_format(path, options.format)) {
-    return other->read_file(path, options);
+    TrajectoryFile out = other->read_file(path, options);
+    if (out.nanoseconds.empty()) sort_rows(out, path.string(), options);
+    return out;
   }
   TrajectoryFile out = read_text_file(path, options);
   if (out.has_stamps && !options.times) out.nanoseconds = exact_stamps(path, out, options);

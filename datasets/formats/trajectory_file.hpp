@@ -31,6 +31,9 @@ TrajectoryFile read_trajectory_file(const std::filesystem::path& file,
 /// False if there are none.
 bool has_covariances(const TrajectoryFile& file, Format format);
 
+/// Whether write_trajectory() writes files of this format.
+bool can_write(Format format);
+
 /// Keeps the poses with these indices, in their order. O(indices).
 TrajectoryFile selected(const TrajectoryFile& file, const std::vector<std::size_t>& indices);
 

@@ -40,15 +40,18 @@ bool has_covariances(const TrajectoryFile& file, Format format) {
   return lacks_rotations(file.poses) ? contents.position_covariances : contents.covariances;
 }
 
+bool can_write(Format format) {
+  return format != Format::automatic && entry_of(format).write != nullptr;
+}
+
 void write_trajectory(const std::filesystem::path& file,
                       const TrajectoryFile& trajectory,
                       Format format,
                       const std::optional<std::filesystem::path>& times) {
   check(trajectory.poses, file.string(), Rotations::optional);
-  const auto can_write = [](const FormatEntry& each) { return each.write != nullptr; };
-  if (format == Format::automatic || !can_write(entry_of(format))) {
+  if (!can_write(format)) {
     throw InputError("format: found " + to_text(format) + ", expected " +
-                     names_of_formats(can_write));
+                     names_of_formats([](const FormatEntry& e) { return e.write != nullptr; }));
   }
   const FormatEntry& entry = entry_of(format);
   if (lacks_rotations(trajectory.poses) && !entry.contents.positions) {

@@ -41,7 +41,7 @@ TEST(BadFiles, TimesMustMatchThePoses) {
                 "(--sort, or sort: true in a config)");
   EXPECT_EQ(refuse("times_two_columns.txt"),
             sample("bad/times_two_columns.txt").string() +
-                ":1: has 2 columns, expected 1: a time in seconds");
+                ":1: has 2 columns, expected 1: a time in seconds, or a time and a file name");
   EXPECT_EQ(refuse("nowhere.txt"), sample("bad/nowhere.txt").string() + ": no such file");
 }
 

@@ -267,8 +267,6 @@ TEST(G2o, RefusesWhatOverflowsOnTheWay) {
             ":1: information is not positive definite after inversion of the edge");
   EXPECT_EQ(error_of("EDGE_SE2 0 1 1e308 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1e308 0 0 1 0 0 1 0 1\n"),
             ": pose 2: is not finite");
-  EXPECT_EQ(error_of("VERTEX_SE2 9007199254740992 0 0 0\nVERTEX_SE2 9007199254740993 0 0 0\n"),
-            ": pose 1: stamp does not increase");
   EXPECT_EQ(error_of("VERTEX_RST3:QUAT 0 0 0 0 0 0 0 1 1e-310\n"),
             ":1: scale is 1e-310, too small to be inverted");
 }

@@ -84,7 +84,7 @@ TEST(StampOrder, LostDigitsAreNamed) {
   EXPECT_THAT(why(few), HasSubstr("2 of 4 rows have the stamp of the row above: stamps have too"));
   EXPECT_THAT(why(few), testing::Not(HasSubstr("keep_first")));
   EXPECT_THAT(why(rows({"0", "0", "0"})), HasSubstr("stamps are 0"));
-  EXPECT_THAT(why(rows({"1", "2", "2", "3"})), HasSubstr("keep_first"));
+  EXPECT_EQ(read_text(rows({"1", "2", "2", "3"})).size(), 3u);  // one, whose pose agrees
 }
 
 TEST(InvalidRows, AreDroppedAndCounted) {
