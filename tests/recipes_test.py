@@ -93,6 +93,15 @@ with tempfile.TemporaryDirectory() as copy:
     expect(run(built, "length", planar), "10.000")
     expect(run(built, "list", "half_way"), "half way")
     expect(run(built, "eval", planar, planar, "--metric", "height_error"), "height")
+    # A reader has the options of all readers.
+    messy, times = os.path.join(copy, "messy.txt"), os.path.join(copy, "times.txt")
+    with open(messy, "w") as out:
+        out.write("2 6 0 0 3\n0 0 0 0 0\n1 3 4 0 1.5\n1 9 9 0 1.5\n1.5 nan 0 0 0\n")
+    with open(times, "w") as out:
+        out.write("10.5\n11.5\n12.5\n")
+    options = ["--sort", "--drop-invalid", "--repeats", "keep_first"]
+    expect(run(built, "eval", planar, messy, *options), "3 of 3 (100.0 %)")
+    expect(run(built, "traj", "info", planar, "--times", times), "10.500000 to 12.500000")
     run(built, "run", config, "--out", os.path.join(copy, "results"), "--jobs", "1")
     rows = run(built, "export", os.path.join(copy, "results"), "--what", "rows", "-o", "-")
     for part in ("half_way", "height_error", "circle", "strict"):

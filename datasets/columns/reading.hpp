@@ -16,8 +16,9 @@ namespace loopbench {
 
 /// `automatic` detects the format from the content, not from the file extension. A header row is
 /// skipped; csv is a table whose header names time, position and quaternion, in any order. bag is a
-/// ROS bag (datasets/bags).
-enum class Format { automatic, tum, kitti, euroc, g2o, csv, bag };
+/// ROS bag (datasets/bags). json, npy, log (a matrix over four lines) and frames (a folder with one
+/// file per frame) are matrices.
+enum class Format { automatic, tum, kitti, euroc, g2o, csv, bag, json, npy, log, frames };
 inline auto choices(Format) {
   return std::array{std::pair{"auto", Format::automatic},
                     std::pair{"tum", Format::tum},
@@ -25,7 +26,11 @@ inline auto choices(Format) {
                     std::pair{"euroc", Format::euroc},
                     std::pair{"g2o", Format::g2o},
                     std::pair{"csv", Format::csv},
-                    std::pair{"bag", Format::bag}};
+                    std::pair{"bag", Format::bag},
+                    std::pair{"json", Format::json},
+                    std::pair{"npy", Format::npy},
+                    std::pair{"log", Format::log},
+                    std::pair{"frames", Format::frames}};
 }
 
 /// Handling of a pose with the same stamp as the previous one, which occurs in published files. The
@@ -86,6 +91,7 @@ struct ReadFindings {
   /// Maximum deviation of matrices from orthonormal that was normalised, if above 1e-3.
   double off_orthonormal = 0.0;
   MatrixScales scales = {};
+  bool opengl_axes = false;  ///< axes of the camera were converted from those of OpenGL
   std::size_t angles = 0;    ///< columns of angles in place of a quaternion: 3, or 1 for a heading
   std::size_t unsorted = 0;  ///< rows moved by `sort`
   std::vector<StampUnit> units = {StampUnit::s};  ///< all that fit; the first one was used

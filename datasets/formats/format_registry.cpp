@@ -8,8 +8,16 @@
 namespace loopbench {
 
 std::span<const FormatEntry> formats() {
-  static const std::array all{
-      bag_format(), g2o_format(), kitti_format(), euroc_format(), tum_format(), csv_format()};
+  static const std::array all{frames_format(),
+                              bag_format(),
+                              npy_format(),
+                              json_format(),
+                              g2o_format(),
+                              log_format(),
+                              kitti_format(),
+                              euroc_format(),
+                              tum_format(),
+                              csv_format()};
   return all;
 }
 

@@ -53,5 +53,9 @@ FormatEntry kitti_format();
 FormatEntry euroc_format();
 FormatEntry tum_format();
 FormatEntry csv_format();
+FormatEntry json_format();
+FormatEntry npy_format();
+FormatEntry log_format();
+FormatEntry frames_format();
 
 }  // namespace loopbench

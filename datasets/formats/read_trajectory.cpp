@@ -163,6 +163,8 @@ std::vector<std::string> reading_notes(const ReadFindings& findings) {
                   findings.off_orthonormal));
   note(findings.scales.rows > 0, scales_text(findings.scales));
   note(unit == StampUnit::ms || unit == StampUnit::us, "stamps are read in " + to_text(unit));
+  note(findings.opengl_axes,
+       "camera axes are converted from those of OpenGL (y up, z back) to y down, z ahead");
   note(findings.angles == 1, "planar poses x, y and heading");
   note(findings.angles == 3, "rotations are Rz(yaw) Ry(pitch) Rx(roll)");
   note(!findings.time_column.empty(), "time is " + findings.time_column);

@@ -13,6 +13,7 @@ const std::map<std::string, void (*)(const std::filesystem::path& file)>& fuzz_t
       {"closures", fuzz_closures},
       {"bag", fuzz_bag},
       {"csv", fuzz_csv},
+      {"matrices", fuzz_matrices},
       {"config", fuzz_config},
       {"store", fuzz_store},
       {"report", fuzz_report},

@@ -106,6 +106,10 @@ void fuzz_bag(const Path& file) {
 }
 
 void fuzz_csv(const Path& file) { fuzz_trajectory(file, Format::csv); }
+void fuzz_matrices(const Path& file) {
+  for (const Format format : {Format::json, Format::npy, Format::log})
+    fuzz_trajectory(file, format);
+}
 
 void fuzz_closures(const Path& file) {
   for (const StampedClosure& closure :

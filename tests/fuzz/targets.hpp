@@ -19,6 +19,7 @@ void fuzz_times(const std::filesystem::path& file);
 void fuzz_closures(const std::filesystem::path& file);
 void fuzz_bag(const std::filesystem::path& file);
 void fuzz_csv(const std::filesystem::path& file);
+void fuzz_matrices(const std::filesystem::path& file);  ///< json, npy, log
 void fuzz_config(const std::filesystem::path& file);
 void fuzz_store(const std::filesystem::path& file);
 void fuzz_report(const std::filesystem::path& file);      ///< of a store
