@@ -17,7 +17,13 @@ struct EvaluatedFile {
   std::vector<PoseMatrix> matrices = {};  ///< as printed; only of KITTI files, and if needed
   ReadFindings findings = {};             ///< its covariances are of `poses`
   FileClock clock = {};  ///< with the rows of the file, also those that are not poses
+  /// The row of each pose, ascending from 0 on, if some were dropped or cut; empty: consecutive, or
+  /// not known because rows were sorted or had repeated stamps.
+  std::vector<std::size_t> rows = {};
 };
+
+/// Keeps the poses with these indices, with all that belongs to them.
+void keep_poses(EvaluatedFile& file, const std::vector<std::size_t>& indices);
 
 /// Read a file as the arguments state, without poses that they filter out; the reference is in the
 /// body of the estimates and within the time range. The unit of its stamps is that under which it

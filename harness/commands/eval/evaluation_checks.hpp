@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "datasets/core/fields.hpp"
+#include "harness/commands/eval/common_rows.hpp"
 #include "harness/commands/eval/file_evaluation.hpp"
 #include "harness/commands/eval/pairing_remedies.hpp"
 #include "harness/sweep/run/evaluation_notes.hpp"
@@ -90,7 +91,9 @@ inline std::optional<Note> paired_rows(const metrics::Evaluation& evaluation,
   if (!by_rows || one.rows != other.rows || evaluation.protocol.offset != 0.0) {
     return std::nullopt;
   }
-  return Note{.kind = NoteKind::paired_rows, .numbers = {{"rows", static_cast<double>(one.rows)}}};
+  return Note{.kind = NoteKind::paired_rows,
+              .numbers = {{"rows", static_cast<double>(one.rows)},
+                          {"pairs", static_cast<double>(evaluation.coverage.pairs)}}};
 }
 
 /// Whether a finding of the doctor explains errors that another body would explain, too.
@@ -107,12 +110,14 @@ inline bool explains_other_body(const Note& note) {
 }
 
 /// Poses with the increasing stamps that the doctor needs: the first pose of each stamp, or
-/// multiples of the period. Copies into `kept` only if some change.
-inline const Trajectory& for_doctor(const Trajectory& poses, bool by_index, Trajectory& kept) {
+/// multiples of the period for the rows. Copies into `kept` only if some change.
+inline const Trajectory& for_doctor(const EvaluatedFile& file, bool by_index, Trajectory& kept) {
+  const Trajectory& poses = file.poses;
   if (by_index) {
     kept = poses;
+    const std::vector<std::size_t> rows = row_numbers(file);
     for (std::size_t i = 0; i < kept.size(); ++i) {
-      kept[i].stamp = static_cast<double>(i) * ReadOptions{}.period;
+      kept[i].stamp = static_cast<double>(rows[i]) * ReadOptions{}.period;
     }
     return kept;
   }

@@ -6,10 +6,12 @@
 #include <future>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/parallel.hpp"
 #include "harness/commands/eval/common_parts.hpp"
+#include "harness/commands/eval/common_rows.hpp"
 #include "harness/commands/eval/eval_figures.hpp"
 #include "harness/commands/eval/evaluation_checks.hpp"
 #include "harness/commands/eval/pairing_remedies.hpp"
@@ -84,6 +86,8 @@ struct PairEvaluation {
   const EvaluatedFile& estimate;
   FileEvaluation& out;
   std::string common;  ///< times to evaluate; empty: all
+  /// Poses of the estimate that are possible pairs; none: as the evaluation counts them.
+  std::optional<std::size_t> possible = {};
 
   void evaluate(std::size_t number) {
     EvaluationResult& own = out.protocols[number];
@@ -95,7 +99,7 @@ struct PairEvaluation {
     if (!failure.why.empty()) {
       failure.status = Status::failed;
     } else {
-      catch_errors(failure, [&] { add(own, row, rules); });
+      catch_errors(failure, [&] { add_paired(own, row, rules); });
     }
     if (own.coverage.pairs == 0 && failure.why.starts_with("no pose of the estimate")) {
       failure.why += pairing_remedies(reference.poses, estimate.poses, rules);
@@ -124,12 +128,35 @@ struct PairEvaluation {
     coverage.possible = std::max(coverage.pairs, static_cast<std::size_t>(count));
   }
 
+  /// By index, poses of the same row are paired: rows keep their numbers if others are dropped.
+  void add_paired(EvaluationResult& own, const ScoreResult& row, const metrics::Protocol& rules) {
+    const bool by_index = rules.association == metrics::Association::index;
+    const bool is_complete = reference.rows.empty() && estimate.rows.empty();
+    if (!by_index || is_complete) return add(own, row, rules);
+    if (reference.clock.rows != estimate.clock.rows) {
+      throw InputError(
+          fmt::format("association index: the reference has {} rows and the estimate {}, expected "
+                      "equal numbers",
+                      reference.clock.rows,
+                      estimate.clock.rows));
+    }
+    const auto [a, b] = with_common_rows(reference, estimate);
+    PairEvaluation part{files, a, b, out, common, rows_in_range(reference, estimate)};
+    part.add(own, row, rules);
+    own.reference_poses = reference.poses.size();
+    own.estimate_poses = estimate.poses.size();
+  }
+
   void add(EvaluationResult& own, const ScoreResult& row, const metrics::Protocol& rules) {
     const EvalArguments& arguments = files.arguments;
     const Sweep& sweep = files.sweep;
     metrics::Evaluation evaluation = metrics::evaluate(reference.poses, estimate.poses, rules);
     if (!common.empty()) evaluation = within_common_times(evaluation);
-    if (arguments.start || arguments.end) count_in_range(evaluation.coverage, rules.offset);
+    if (possible) {
+      evaluation.coverage.possible = *possible;
+    } else if (arguments.start || arguments.end) {
+      count_in_range(evaluation.coverage, rules.offset);
+    }
     const bool are_printed = !reference.matrices.empty() && !estimate.matrices.empty();
     const std::vector<Matrix6>& read = reference.findings.covariances;
     const std::vector<Matrix6> of_reference =
@@ -165,6 +192,18 @@ struct PairEvaluation {
       add_pose_values(out.result, row);
     }
     checks.get();
+    note_missing_segments(own, row.protocol);
+  }
+
+  /// A protocol with lengths of its own has a column for them, unless the path is too short.
+  void note_missing_segments(EvaluationResult& own, std::size_t protocol) const {
+    if (own.protocol.rules.segments == metrics::SegmentErrorRule{}) return;
+    for (const ScoreResult& each : out.result.scores) {
+      const bool is_missing = each.protocol == protocol && each.status == Status::declined;
+      if (!is_missing || each.metric != "segments") continue;
+      own.notes.push_back(
+          {.kind = NoteKind::undefined, .subject = each.metric, .detail = each.why});
+    }
   }
 };
 
@@ -238,8 +277,8 @@ FileEvaluation evaluate_poses(const Cell& cell,
         const bool has_stamps = !by_index && reference.read.clock.clock == Clock::stamps &&
                                 estimate.clock.clock == Clock::stamps;
         Trajectory kept_reference, kept_estimate;
-        return doctor_notes({for_doctor(reference.read.poses, by_index, kept_reference),
-                             for_doctor(estimate.poses, by_index, kept_estimate),
+        return doctor_notes({for_doctor(reference.read, by_index, kept_reference),
+                             for_doctor(estimate, by_index, kept_estimate),
                              run.reference,
                              run.estimate,
                              has_stamps},

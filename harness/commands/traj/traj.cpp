@@ -42,6 +42,21 @@ void protect_inputs(const TrajArguments& a, const std::vector<std::string>& outp
   }
 }
 
+/// Which rows of the input are not written, if later rows thereby move up; otherwise empty.
+std::string missing_rows(const ReadFindings& findings) {
+  constexpr std::size_t kMost = 10;
+  const std::vector<std::size_t>& dropped = findings.dropped;
+  if (dropped.empty()) return "";
+  const std::size_t shown = std::min(dropped.size(), kMost);
+  return fmt::format(
+      "invalid rows are not written, so that later rows move up: {} of {}, rows {}{} "
+      "(from 0 on)",
+      dropped.size(),
+      findings.rows,
+      fmt::join(dropped.begin(), dropped.begin() + static_cast<long>(shown), ", "),
+      dropped.size() > shown ? ", ..." : "");
+}
+
 /// Writes them to the files of the arguments (with --json none without -o), and says what a format
 /// loses. Returns the exit code.
 int write_all(const TrajArguments& a, const NamedTrajectories& all) {
@@ -64,6 +79,10 @@ int write_all(const TrajArguments& a, const NamedTrajectories& all) {
                  "loopbench: {} does not contain stamps{}\n",
                  to_text(format),
                  format == Format::kitti ? "; --times-out FILE writes them" : "");
+    }
+    const std::string missing = missing_rows(all[i].findings);
+    if (loses_stamps && !missing.empty()) {
+      fmt::print(stderr, "loopbench: {}: {}\n", printable(all[i].name), missing);
     }
     if (!all[i].file.covariances.empty() && !has_covariances(all[i].file, format)) {
       fmt::print(stderr,

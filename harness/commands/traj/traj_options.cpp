@@ -156,8 +156,7 @@ Format written_format(const std::string& out, const std::string& to) {
         ": expected a file name that ends in .txt, .tum, .csv, .g2o or .kitti, or --to FORMAT");
   }
   for (const auto& [name, format] : choices(Format{})) {
-    const bool is_written = format != Format::automatic && format != Format::bag;
-    if (is_written && name == to) return format;
+    if (can_write(format) && name == to) return format;
   }
   throw OptionError("to", "to = " + to + ": expected one of tum | kitti | euroc | g2o | csv");
 }

@@ -25,6 +25,7 @@ enum class NoteKind {
   datum,            ///< both files are in the same frame
   reference_error,  ///< error of the reference itself
   paired_rows,      ///< rows are paired, because there are no stamps
+  undefined,        ///< a score of the protocol that the data do not define
   common_times,     ///< evaluated over the times that all estimates cover
   damaged_file,
   nondeterministic,  ///< runs on equal input gave different trajectories
@@ -69,6 +70,7 @@ inline auto choices(NoteKind) {
                     std::pair{"datum", datum},
                     std::pair{"reference_error", reference_error},
                     std::pair{"paired_rows", paired_rows},
+                    std::pair{"undefined", undefined},
                     std::pair{"common_times", common_times},
                     std::pair{"damaged_file", damaged_file},
                     std::pair{"nondeterministic", nondeterministic},

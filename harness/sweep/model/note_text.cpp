@@ -114,8 +114,10 @@ std::string of_reference_error(const Note& note) {
 }
 
 std::string of_paired_rows(const Note& note) {
-  return fmt::format("paired by row: the files have {:.0f} rows each and no stamps",
-                     note.number("rows"));
+  const std::string sentence = fmt::format(
+      "paired by row: the files have {:.0f} rows each and no stamps", note.number("rows"));
+  if (note.number("pairs") == note.number("rows")) return sentence;
+  return sentence + fmt::format(", {:.0f} are paired", note.number("pairs"));
 }
 
 std::string of_common_times(const Note& note) {
