@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,6 +11,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,20 +29,52 @@ std::string random_name() {
   return fmt::format(".loopbench-{:016x}", bits);
 }
 
-/// Creates a new, empty file in `folder`. Returns its descriptor; -1 and errno if the folder cannot
-/// be written.
-int create_temporary_file(const std::filesystem::path& folder, std::filesystem::path& file) {
-  constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
-  int descriptor = -1;
-  for (int i = 0; i < 100 && descriptor < 0; ++i) {
-    file = folder / random_name();
-    descriptor = ::open(file.c_str(), kFlags, 0666);
-    if (descriptor < 0 && errno != EEXIST) break;
-  }
-  return descriptor;
+using FilePath = std::filesystem::path;
+
+bool is_temporary_name(const std::string& name) {
+  constexpr std::string_view kPrefix = ".loopbench-";
+  return name.starts_with(kPrefix) && name.size() == kPrefix.size() + 16 &&
+         name.find_first_not_of("0123456789abcdef", kPrefix.size()) == std::string::npos;
 }
 
-using FilePath = std::filesystem::path;
+/// Removes temporary files that nobody holds a lock on; once per folder and process. O(entries).
+void remove_left_files(const FilePath& folder) {
+  static std::mutex mutex;
+  static std::set<FilePath> done;
+  {
+    const std::lock_guard lock(mutex);
+    if (!done.insert(folder).second) return;
+  }
+  std::error_code ignored;
+  const FilePath place = folder.empty() ? FilePath(".") : folder;
+  for (const auto& entry : std::filesystem::directory_iterator(place, ignored)) {
+    if (!is_temporary_name(entry.path().filename().string())) continue;
+    const int left = ::open(entry.path().c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+    if (left < 0) continue;
+    if (::flock(left, LOCK_EX | LOCK_NB) == 0) std::filesystem::remove(entry.path(), ignored);
+    ::close(left);
+  }
+}
+
+/// Creates a new, empty, locked file in `folder`. Returns its descriptor; -1 and errno if the
+/// folder cannot be written.
+int create_temporary_file(const FilePath& folder, FilePath& file) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  for (int i = 0; i < 100; ++i) {
+    file = folder / random_name();
+    const int descriptor = ::open(file.c_str(), kFlags, 0666);
+    if (descriptor < 0 && errno != EEXIST) return -1;
+    if (descriptor < 0) continue;
+    struct stat status {};
+    const bool is_locked = ::flock(descriptor, LOCK_EX) == 0;  // not on every file system
+    // Before it was locked, another process can have taken it for one that is left.
+    if (!is_locked || (::fstat(descriptor, &status) == 0 && status.st_nlink > 0)) return descriptor;
+    ::close(descriptor);
+  }
+  return -1;
+}
+
+thread_local int syncs_are_off = 0;
 
 InputError cannot_write(const FilePath& file, const std::string& why) {
   return input_error(file.string(), 0, "cannot be written: " + why);
@@ -101,6 +136,7 @@ PendingFile::PendingFile(const FilePath& file, Target target) : file_(file) {
   } else {
     if (is_regular) reject_read_only(file, status);
     place_ = is_named ? link_target(file) : file;
+    if (syncs_are_off == 0) remove_left_files(place_.parent_path());
     descriptor_ = create_temporary_file(place_.parent_path(), part_);
     if (descriptor_ < 0) part_.clear();
   }
@@ -120,15 +156,21 @@ void PendingFile::write(std::string_view bytes) {
 }
 
 void PendingFile::commit() {
+  const bool is_synced = part_.empty() || syncs_are_off > 0 || ::fsync(descriptor_) == 0;
+  const int reason = is_synced ? 0 : errno;
   const int descriptor = std::exchange(descriptor_, -1);
   // Some file systems report a full disk only on closing.
   if (::close(descriptor) != 0) throw cannot_write(file_, std::strerror(errno));
+  if (reason != 0 && reason != EINVAL) throw cannot_write(file_, std::strerror(reason));
   if (part_.empty()) return;
   std::error_code error;
   std::filesystem::rename(part_, place_, error);
   if (error) throw cannot_write(file_, error.message());
   part_.clear();
 }
+
+WithoutSync::WithoutSync() { ++syncs_are_off; }
+WithoutSync::~WithoutSync() { --syncs_are_off; }
 
 void replace_file(const FilePath& file, std::string_view bytes, Target target) {
   PendingFile out(file, target);

@@ -36,10 +36,22 @@ class PendingFile {
   int descriptor_ = -1;
 };
 
-/// Writes a temporary file in the same folder and renames it, so that readers never see a partial
-/// file. The temporary file `.loopbench-*` has an unpredictable name and is created exclusively.
-/// The mode of a replaced regular file is kept. Throws InputError if the folder is missing, if the
-/// folder or file cannot be written, if `file` is read-only, or if it is a folder.
+/// Until it is destroyed, files that this thread writes are not synced, and none are removed: for
+/// files that do not outlive the sweep, such as those that programs exchange.
+class WithoutSync {
+ public:
+  WithoutSync();
+  ~WithoutSync();
+  WithoutSync(const WithoutSync&) = delete;
+  WithoutSync& operator=(const WithoutSync&) = delete;
+};
+
+/// Writes a temporary file in the same folder, waits until it is on the disk, and renames it, so
+/// that readers never see a partial file, also after a power cut. The temporary file `.loopbench-*`
+/// has an unpredictable name and is created exclusively; it is locked, so that those of killed
+/// processes can be told from it: they are removed when a process writes into their folder for the
+/// first time. The mode of a replaced regular file is kept. Throws InputError if the folder is
+/// missing, if the folder or file cannot be written, if `file` is read-only, or if it is a folder.
 void replace_file(const std::filesystem::path& file, std::string_view bytes, Target target);
 
 }  // namespace loopbench
