@@ -10,7 +10,6 @@
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/sweep/process/write_file.hpp"
-#include "harness/sweep/store/open.hpp"
 #include "harness/sweep/text/counted.hpp"
 #include "harness/sweep/text/print_error.hpp"
 #include "harness/sweep/text/printable.hpp"
@@ -94,7 +93,6 @@ int update(const CheckArguments& arguments) {
     throw InputError(arguments.store +
                      ": every cell failed, a baseline needs results: " + failed.front());
   }
-  reject_overwriting({store_file(arguments.store)}, arguments.baseline);
   write_file(arguments.baseline, json(baseline));
   print_summary(is_dash(arguments.baseline),
                 fmt::format("{}: {} written\n{}",
@@ -124,9 +122,6 @@ int check_store(const CheckArguments& arguments) {
   }
   report.above = texts(counted_notes(arguments.store), Severity::decisive);
   const std::string text = markdown(report, baseline.snapshot.sweep);
-  for (const std::string& out : {arguments.markdown, arguments.junit}) {
-    reject_overwriting({store_file(arguments.store), arguments.baseline}, out);
-  }
   if (!arguments.markdown.empty()) write_file(arguments.markdown, text);
   if (!arguments.junit.empty()) write_file(arguments.junit, junit(report, baseline.snapshot.sweep));
   const bool is_taken = is_dash(arguments.junit) || is_dash(arguments.markdown);
@@ -141,14 +136,21 @@ void add_check(CLI::App& app, int& exit_code) {
   CheckArguments& a = *arguments;
   CLI::App& command = *app.add_subcommand("check", "Compare a sweep with its baseline");
   declare_store(command, a.store);
-  add(command,
-      "--baseline FILE",
-      a.baseline,
-      "Baseline file, for example results/reference/quickstart.json")
-      ->required();
-  add(command, "--junit FILE", a.junit, "JUnit XML file to write");
-  add(command, "--markdown FILE", a.markdown, "Markdown report to write");
-  command.add_flag("--update", a.update, "Write the baseline from this store and keep its limits");
+  CLI::Option* const baseline = add(command,
+                                    "--baseline FILE",
+                                    a.baseline,
+                                    "Baseline file, for example results/reference/quickstart.json")
+                                    ->required();
+  writes(
+      command, add(command, "--junit FILE", a.junit, "JUnit XML file to write"), FileKind::printed);
+  writes(command,
+         add(command, "--markdown FILE", a.markdown, "Markdown report to write"),
+         FileKind::printed);
+  updates(command,
+          baseline,
+          FileKind::baseline,
+          command.add_flag(
+              "--update", a.update, "Write the baseline from this store and keep its limits"));
   command.add_flag(
       "--part", a.part, "Accept missing cells, because only a part of the sweep was run");
   command.add_flag(

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "datasets/core/fields.hpp"
+#include "harness/commands/output_files.hpp"
 #include "harness/sweep/text/suggest.hpp"
 
 namespace loopbench::harness {
@@ -63,13 +64,14 @@ CLI::Option* add(CLI::App& command,
 /// Adds the store of a sweep, as first argument.
 template <class Path>
 void declare_store(CLI::App& command, Path& store) {
-  add(command, "store", store, "Folder of results, or its results.sqlite")->required();
+  reads(command, add(command, "store", store, "Folder of results, or its results.sqlite"))
+      ->required();
 }
 
 /// Adds the config of a sweep, as first argument.
 inline void declare_config(CLI::App& command, std::string& config) {
   const char* const help = "YAML file, or the name of an installed config: quickstart";
-  add(command, "config", config, help)->required();
+  reads(command, add(command, "config", config, help))->required();
 }
 
 /// Accepts one of these words and maps it to its enumerator; `kind` names the set in messages.

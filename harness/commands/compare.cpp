@@ -79,7 +79,7 @@ int print_comparison(const CompareArguments& arguments) {
   std::optional<NewFolder> merged;
   if (arguments.stores.size() > 1) {
     merged.emplace("loopbench-compare-");
-    store = (merged->path() / "results.sqlite").string();
+    store = (merged->path() / "all" / "results.sqlite").string();  // its folder will be locked
     merge_stores(arguments.stores, store, {.mixed_builds = true});
   }
   const auto compared = [&](const std::string& baseline) {
@@ -108,10 +108,11 @@ void add_compare(CLI::App& app, int& exit_code) {
   CompareArguments& a = *arguments;
   CLI::App& command =
       *app.add_subcommand("compare", "Compare and rank methods with significance tests");
-  add(command,
-      "store",
-      a.stores,
-      "Folders of results, or their results.sqlite; several are compared as one")
+  reads(command,
+        add(command,
+            "store",
+            a.stores,
+            "Folders of results, or their results.sqlite; several are compared as one"))
       ->required()
       ->expected(1, -1);
   add(command, "--baseline METHOD", a.options.baseline, "Method that others are compared with");

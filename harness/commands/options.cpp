@@ -27,7 +27,8 @@ void declare_reading(CLI::App& command,
                      ReadArguments& reading,
                      const std::vector<std::string>& without) {
   add(command, "-f,--format", reading.format, "Format of the files");
-  add(command, "--times FILE", reading.times, "Times of poses without stamps, one per line [s]");
+  const char* const times = "Times of poses without stamps, one per line [s]";
+  reads(command, add(command, "--times FILE", reading.times, times));
   command.add_option("--period", reading.period, "Time between poses without stamps [s]")
       ->check(finite_number());
   add(command, "--stamp-unit", reading.stamp_unit, "Unit of stamps that state none");
@@ -75,23 +76,27 @@ void declare_pose_filters(CLI::App& command,
 }
 
 void declare_problem(CLI::App& command, CorrectArguments& problem) {
-  add(command, "estimate ESTIMATE", problem.estimate, "Trajectory file, or a g2o graph")
+  reads(command,
+        add(command, "estimate ESTIMATE", problem.estimate, "Trajectory file, or a g2o graph"))
       ->required();
-  add(command,
-      "--loops FILE",
-      problem.loops,
-      "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a g2o graph "
-      "whose vertices are the poses of ESTIMATE");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--set",
-          [&problem](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) problem.settings.push_back({text});
-          },
-          "Option of dataset trajectory (or pose_graph for a graph), see `list datasets`")
-      ->type_name("OPTION=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  reads(command,
+        add(command,
+            "--loops FILE",
+            problem.loops,
+            "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a g2o "
+            "graph whose vertices are the poses of ESTIMATE"));
+  CLI::Option* const set =
+      command
+          .add_option_function<std::vector<std::string>>(
+              "--set",
+              [&problem](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) problem.settings.push_back({text});
+              },
+              "Option of dataset trajectory (or pose_graph for a graph), see `list datasets`")
+          ->type_name("OPTION=VALUE")
+          ->expected(1)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  reads(command, set);
 }
 
 void declare_figures(CLI::App& command, FigureOptions& options, const std::string& needs) {

@@ -88,6 +88,18 @@ std::vector<std::string> known_labels(const std::string& kind,
   return out;
 }
 
+std::vector<OutputFile> figure_outputs(const std::vector<FigureData>& all,
+                                       const std::filesystem::path& folder) {
+  std::vector<OutputFile> out{{"--out", folder / "provenance.json", FileKind::printed, true}};
+  for (const FigureData& data : all) {
+    for (const DrawnFigure& figure : data.figures) {
+      for (const std::filesystem::path& file : figure.files)
+        out.push_back({"--out", file, FileKind::figure});
+    }
+  }
+  return out;
+}
+
 int write_figures(const PlotArguments& arguments) {
   const ReportContent content = read_report_content(arguments.store);
   const std::vector<std::string> methods =
@@ -140,6 +152,7 @@ int write_figures(const PlotArguments& arguments) {
   all.push_back(score_figures(content, arguments, names));
   for (const DrawnFigure& figure : all.back().figures) written += file_list(figure);
   if (written.empty()) throw InputError(arguments.store + ": has no stored trajectories to plot");
+  require_writable(figure_outputs(all, folder));
   draw(all);
   fmt::print("{}", printable(written));
   write_result(folder / "provenance.json", json(read_store_provenance(arguments.store)));
@@ -180,6 +193,7 @@ void add_plot(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(std::vector<std::string>(kFigureFormats.begin(), kFigureFormats.end())))
       ->default_str("pdf");
   declare_figures(command, a.figures);
+  declare_force(command);
   command.callback([arguments, &exit_code] { exit_code = write_figures(*arguments); });
 }
 

@@ -21,6 +21,7 @@
 #include "datasets/core/params.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/help_format.hpp"
+#include "harness/commands/output_files.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/sweep/run/build.hpp"
 #include "harness/sweep/text/print_error.hpp"
@@ -108,6 +109,19 @@ std::vector<std::string> normalised_options(const CLI::App& app, std::vector<std
   }
   return words;
 }
+
+/// Checks the files of a command before it runs, after its line has been parsed.
+class Program : public CLI::App {
+ public:
+  using CLI::App::App;
+
+ private:
+  void pre_callback() override {
+    const CLI::App* command = this;
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    check_declared_files(*command);
+  }
+};
 
 /// What is wrong with the command line: the word that names no subcommand or option, with a
 /// suggestion, or the command and the message of CLI11.
@@ -219,7 +233,7 @@ int run_program(int argc, char** argv, const Source& source) {
   reserve_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is then an error of write()
   const std::vector<std::string> words{argv + 1, argv + argc};
-  CLI::App app{"Benchmark of loop-closure correction methods for trajectories", "loopbench"};
+  Program app{"Benchmark of loop-closure correction methods for trajectories", "loopbench"};
   app.formatter(help_formatter());
   app.set_version_flag("--version", std::string("loopbench ") + kVersion);
   app.require_subcommand(1);

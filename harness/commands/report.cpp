@@ -7,7 +7,6 @@
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/sweep/process/write_file.hpp"
-#include "harness/sweep/store/open.hpp"
 #include "harness/sweep/text/print_error.hpp"
 #include "harness/sweep/text/printable.hpp"
 
@@ -23,8 +22,10 @@ void add_report(CLI::App& app, int& exit_code) {
   CLI::App& command =
       *app.add_subcommand("report", "Write the results of a sweep as one HTML file");
   declare_store(command, arguments->store);
-  add(command, "-o,--out FILE", arguments->out, "File to write; - is standard output")
-      ->capture_default_str();
+  CLI::Option* const out =
+      add(command, "-o,--out FILE", arguments->out, "File to write; - is standard output")
+          ->capture_default_str();
+  writes(command, out, FileKind::page);
   add(command,
       "--size",
       arguments->megabytes,
@@ -32,7 +33,6 @@ void add_report(CLI::App& app, int& exit_code) {
       ->check(number_between(0.1, 1000.0))
       ->capture_default_str();
   command.callback([arguments, &exit_code] {
-    reject_overwriting({store_file(arguments->store)}, arguments->out);
     const auto bytes = static_cast<std::size_t>(1e6 * arguments->megabytes);
     const std::string html = report_html(read_report_content(arguments->store, bytes), bytes);
     write_file(arguments->out, html);

@@ -11,7 +11,6 @@
 #include "harness/commands/standard_output.hpp"
 #include "harness/sweep/process/write_file.hpp"
 #include "harness/sweep/run/build.hpp"
-#include "harness/sweep/store/open.hpp"
 #include "harness/sweep/store/read.hpp"
 #include "harness/sweep/text/print_error.hpp"
 
@@ -48,10 +47,12 @@ void declare(CLI::App& command, OutputOptions& output) {
                   output.given,
                   "Output format; default: terminal on a terminal, otherwise markdown")
       ->transform(one_of("format", known));
-  add(command,
-      "-o,--out FILE",
-      output.file,
-      "File to write (-: standard output); for CSV also its provenance");
+  writes(command,
+         add(command,
+             "-o,--out FILE",
+             output.file,
+             "File to write (-: standard output); for CSV also its provenance"),
+         FileKind::printed);
   command.add_flag("--wide",
                    output.wide,
                    "LaTeX tables as wide as the text (174 mm) instead of one column (84 mm)");
@@ -108,10 +109,15 @@ void write_output(const std::string& text,
   if (is_printed(output)) {
     fmt::print("{}", out);
   } else {
-    reject_overwriting({store_file(store)}, output.file);
+    if (format == ExportFormat::csv) require_writable({provenance_output(output.file)});
     write_file(output.file, out);
   }
   if (format == ExportFormat::csv) write_provenance_of_csv(provenance, output.file);
+}
+
+OutputFile provenance_output(const std::string& csv) {
+  const bool is_printed = csv.empty() || is_dash(csv);
+  return {"--out", is_printed ? "" : provenance_file(csv), FileKind::printed, true};
 }
 
 void write_provenance_of_csv(const StoreProvenance& provenance, const std::string& file) {

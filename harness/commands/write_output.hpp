@@ -9,6 +9,7 @@
 
 #include "harness/answers/tables/store_provenance.hpp"
 #include "harness/answers/tables/table.hpp"
+#include "harness/commands/output_files.hpp"
 
 namespace loopbench::harness {
 
@@ -43,6 +44,9 @@ void write_output(const std::string& text,
                   const OutputOptions& output,
                   const std::string& key,
                   const std::filesystem::path& store);
+
+/// The file of the provenance of a CSV file.
+OutputFile provenance_output(const std::string& csv);
 
 /// Writes the provenance of a CSV file next to it; see write_output().
 void write_provenance_of_csv(const StoreProvenance& provenance, const std::string& file);

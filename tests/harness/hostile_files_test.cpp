@@ -84,16 +84,6 @@ TEST(WriteFile, RefusesWhatNobodyMayWrite) {
   EXPECT_EQ(files_in(folder), 1u);
 }
 
-TEST(WriteFile, KnowsAnInputByAnyName) {
-  const TemporaryFolder folder;
-  const fs::path input = folder.file("input", "old");
-  fs::create_hard_link(input, folder.path() / "twin");
-  EXPECT_THROW(reject_overwriting({"absent", input}, folder.path() / "twin"), InputError);
-  EXPECT_NO_THROW(reject_overwriting({input}, folder.path() / "new"));
-  EXPECT_NO_THROW(reject_overwriting({input}, ""));
-  EXPECT_NO_THROW(reject_overwriting({"/dev/null"}, "/dev/null"));
-}
-
 TEST(Printable, LeavesNothingThatSteersATerminal) {
   EXPECT_EQ(printable("a b\nc \xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80"),
             "a b\nc \xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");

@@ -56,7 +56,7 @@ void add_correct(CLI::App& app, int& exit_code) {
       "methods`")
       ->capture_default_str();
   const auto file = [&](const char* name, std::string& value, const char* help) {
-    command->add_option(name, value, help)->type_name("FILE");
+    reads(*command, command->add_option(name, value, help))->type_name("FILE");
   };
   file("--anchors",
        c.anchors,
@@ -71,23 +71,30 @@ void add_correct(CLI::App& app, int& exit_code) {
       ->check(positive_number());
   file("--frames", c.frames, "All tracked poses of the run, if ESTIMATE contains only keyframes");
   auto* dense = command->add_flag("--dense", c.dense, "Output keyframes and frames");
-  add(*command, "--at FILE", c.at, "Output poses at the stamps of this trajectory file")
+  reads(*command,
+        add(*command, "--at FILE", c.at, "Output poses at the stamps of this trajectory file"))
       ->excludes(dense);
-  add(*command, "-o,--out FILE", c.out, "Output file; - is standard output");
+  writes(*command,
+         add(*command, "-o,--out FILE", c.out, "Output file; - is standard output"),
+         FileKind::trajectory);
   add(*command,
       "--to WORD:tum|kitti|euroc|g2o|csv",
       a->to,
       "Output format (default: csv, g2o or kitti if -o ends in .csv, .g2o or .kitti, otherwise "
       "tum); g2o contains all edges");
-  add(*command,
-      "--plot FILE",
-      a->plot,
-      "Map of the keyframes before and after: .pdf, .svg, .png or .pgf (default: FILE.pdf)");
+  writes(*command,
+         add(*command,
+             "--plot FILE",
+             a->plot,
+             "Map of the keyframes before and after: .pdf, .svg, .png or .pgf (default: FILE.pdf)"),
+         FileKind::figure);
   declare_figures(*command, a->figure, "--plot");
-  add(*command,
-      "--ledger FILE",
-      c.ledger,
-      "Write one row per closure: how well others predict it (as `loops --csv`)");
+  writes(*command,
+         add(*command,
+             "--ledger FILE",
+             c.ledger,
+             "Write one row per closure: how well others predict it (as `loops --csv`)"),
+         FileKind::printed);
   add(*command, "--plugin FILE", a->plugins, "Shared object with additional methods")
       ->allow_extra_args(false);
   command->add_flag("--json", a->json, "Print JSON instead of text");

@@ -10,8 +10,10 @@ namespace {
 
 void declare_files(CLI::App& command, EvalArguments& a) {
   command.option_defaults()->group("Files");
-  add(command, "reference REF", a.reference, "Reference trajectory file")->required();
-  add(command, "estimates EST", a.estimates, "Trajectory files to evaluate")->required();
+  reads(command, add(command, "reference REF", a.reference, "Reference trajectory file"))
+      ->required();
+  reads(command, add(command, "estimates EST", a.estimates, "Trajectory files to evaluate"))
+      ->required();
   declare_reading(command, a, {"--tf", "--all-topics"});
   add(command, "--ref-format", a.reference_format, "Format of REF, if different from --format");
   add(command,
@@ -31,7 +33,7 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   const auto file = [&](const char* name, std::string& value, const char* whose) {
     const std::string help = std::string("Covariances of ") + whose +
                              ": rows of a stamp and 6, 9, 21 or 36 numbers, one for each pose";
-    command.add_option(name, value, help)->type_name("FILE");
+    reads(command, command.add_option(name, value, help))->type_name("FILE");
   };
   file("--cov", a.covariances, "EST");
   file("--ref-cov", a.reference_covariances, "REF");
@@ -157,21 +159,27 @@ void declare_output(CLI::App& command, EvalArguments& a) {
       .add_flag(
           "--csv", a.csv, "Print a CSV line per score in full precision, as `export --what rows`")
       ->excludes("--json");
-  add(command, "-o,--out FILE", a.out, "File for what is printed (default: standard output)");
-  add(command,
-      "--per-pose FILE",
-      a.per_pose,
-      "CSV file for the error of every pose, and per-pose values of metrics; - is standard output, "
-      "with the results on standard error");
-  add(command,
-      "--plot,--save_plot FILE",
-      a.plot,
-      "Page with all figures: .pdf, .svg, .png or .pgf (default: FILE.pdf); for single figures, "
-      "other sizes and styles see `plot`");
-  add(command,
-      "--report FILE",
-      a.report,
-      "HTML page with tables, verdicts and figures, as `report` writes it");
+  const auto file = [&](const char* name, std::string& value, FileKind kind, const char* help) {
+    return writes(command, add(command, name, value, help), kind);
+  };
+  file("-o,--out FILE",
+       a.out,
+       FileKind::printed,
+       "File for what is printed (default: standard output)");
+  file("--per-pose FILE",
+       a.per_pose,
+       FileKind::printed,
+       "CSV file for the error of every pose, and per-pose values of metrics; - is standard "
+       "output, with the results on standard error");
+  file("--plot,--save_plot FILE",
+       a.plot,
+       FileKind::figure,
+       "Page with all figures: .pdf, .svg, .png or .pgf (default: FILE.pdf); for single figures, "
+       "other sizes and styles see `plot`");
+  file("--report FILE",
+       a.report,
+       FileKind::page,
+       "HTML page with tables, verdicts and figures, as `report` writes it");
   add(command,
       "--store DIR",
       a.store,

@@ -206,10 +206,6 @@ Evaluations evaluated(EvaluatedSweep files,
 
 Evaluations evaluate_files(const EvalArguments& a, const Source& source) {
   check_estimates(a);
-  std::vector<std::filesystem::path> inputs{a.times, a.reference};
-  inputs.insert(inputs.end(), a.estimates.begin(), a.estimates.end());
-  reject_overwriting(inputs, a.per_pose);
-  reject_overwriting(inputs, a.out);
   const std::vector<EvaluatedRun> added = runs_of(a);
   Evaluations out;
   std::vector<EvaluatedRun> runs =

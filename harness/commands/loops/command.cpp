@@ -25,7 +25,6 @@ struct LoopsCommand {
 
 int run_loops(const LoopsCommand& a) {
   constexpr std::size_t kMostRows = 20;  // of a table that fits a screen
-  if (!a.csv.empty()) reject_overwriting({a.input.estimate, a.input.loops}, a.csv);
   LoopsResult result = loops(load_problem(a.input, catalogue({})), a.input.estimate);
   add_rejections(result);
   std::FILE* const out = is_dash(a.csv) ? stderr : stdout;  // rows are on stdout
@@ -42,11 +41,16 @@ void add_loops(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "loops", "Check each loop closure by the closures of other places, without a reference");
   declare_problem(*command, a->input);
-  add(*command, "--csv FILE", a->csv, "Write one row per closure; - is standard output");
-  add(*command,
-      "--plot FILE",
-      a->plot,
-      "Map of the keyframes with the closures: .pdf, .svg, .png or .pgf (default: FILE.pdf)");
+  writes(*command,
+         add(*command, "--csv FILE", a->csv, "Write one row per closure; - is standard output"),
+         FileKind::printed);
+  writes(
+      *command,
+      add(*command,
+          "--plot FILE",
+          a->plot,
+          "Map of the keyframes with the closures: .pdf, .svg, .png or .pgf (default: FILE.pdf)"),
+      FileKind::figure);
   declare_figures(*command, a->figure, "--plot");
   command->remove_option(command->get_option("--labels"));  // colours have a fixed meaning
   command->add_flag("--json", a->json, "Print JSON instead of text");

@@ -47,8 +47,8 @@ std::string reasons_text(const std::vector<Record>& records, Selected selected) 
 }
 
 /// Loads every sequence of the cells once (with its first seed), or inspects it if loading is slow.
-/// Returns "LABEL: reason" for each sequence that cannot be loaded. Throws MissingPart if this
-/// build cannot read a file.
+/// Returns "LABEL: reason (CONFIG:LINE)" for each sequence that cannot be loaded. Throws
+/// MissingPart if this build cannot read a file.
 std::vector<std::string> bad_inputs(const Sweep& sweep,
                                     const std::vector<Cell>& cells,
                                     const Catalogue& catalogue,
@@ -60,6 +60,9 @@ std::vector<std::string> bad_inputs(const Sweep& sweep,
     const DatasetChoice& choice = sweep.datasets[cell.dataset];
     const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
     const Limits limits = loading_limits(choice.dataset, sweep.limits);
+    const auto add = [&](const std::string& why) {
+      out.push_back(choice.label + ": " + with_place(why, choice, sweep));
+    };
     try {
       in_own_process(
           [&] {
@@ -74,9 +77,9 @@ std::vector<std::string> bad_inputs(const Sweep& sweep,
     } catch (const MissingPart&) {
       throw;
     } catch (const ProcessFailure& error) {
-      out.push_back(choice.label + ": a process that loaded it " + error.what());
+      add(std::string("a process that loaded it ") + error.what());
     } catch (const std::exception& error) {
-      out.push_back(choice.label + ": " + error.what());
+      add(error.what());
     }
   }
   return out;
@@ -184,6 +187,14 @@ void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
       store.string(),
       printable(resumed.damaged.front()),
       resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
+}
+
+std::vector<OutputFile> table_files(const std::filesystem::path& out) {
+  std::vector<OutputFile> files;
+  for (const char* const name : {"table.md", "table.csv", "rows.csv", "provenance.json"}) {
+    files.push_back({"--out", out / name, FileKind::printed, true});
+  }
+  return files;
 }
 
 void write_tables(const std::filesystem::path& store,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/commands/output_files.hpp"
 #include "harness/sweep/catalogue/catalogue.hpp"
 #include "harness/sweep/model/cells.hpp"
 #include "harness/sweep/model/record.hpp"
@@ -61,6 +62,9 @@ std::string status_text(const CellCounts& counts, std::size_t planned, const Swe
 
 /// Prints to standard error which damaged cells are recomputed, if any.
 void report_damage(const Resumed& resumed, const std::filesystem::path& store);
+
+/// The files that write_tables() writes into the folder `out`.
+std::vector<OutputFile> table_files(const std::filesystem::path& out);
 
 /// Writes rows.csv, table.md, table.csv and provenance.json into the folder `out` of the store.
 /// Throws InputError.

@@ -13,6 +13,7 @@
 #include "harness/commands/eval/evaluation_result.hpp"
 #include "harness/commands/files/trajectory_selection.hpp"
 #include "harness/commands/files/transformation.hpp"
+#include "harness/commands/output_files.hpp"
 #include "harness/commands/traj/traj_options.hpp"
 #include "harness/commands/traj/trajectory_summary.hpp"
 #include "harness/sweep/process/write_file.hpp"
@@ -31,15 +32,6 @@ std::vector<std::string> names_of(const NamedTrajectories& all) {
   std::vector<std::string> out;
   for (const NamedTrajectory& each : all) out.push_back(each.name);
   return out;
-}
-
-/// Rejects output files that are among the inputs.
-void protect_inputs(const TrajArguments& a, const std::vector<std::string>& outputs) {
-  std::vector<std::filesystem::path> inputs(a.files.begin(), a.files.end());
-  inputs.emplace_back(a.reference);
-  for (const std::string& file : outputs) {
-    if (!is_dash(file)) reject_overwriting(inputs, file);
-  }
 }
 
 /// Which rows of the input are not written, if later rows thereby move up; otherwise empty.
@@ -63,7 +55,11 @@ int write_all(const TrajArguments& a, const NamedTrajectories& all) {
   const Format format = written_format(a.out, a.to);
   if (a.json && is_dash(a.out)) return kExitOk;  // standard output is for JSON
   const std::vector<std::string> files = output_files(names_of(all), a.out, format);
-  protect_inputs(a, files);
+  if (std::filesystem::is_directory(a.out)) {
+    std::vector<OutputFile> outputs;
+    for (const std::string& file : files) outputs.push_back({"--out", file, FileKind::trajectory});
+    require_writable(outputs);
+  }
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool loses_stamps =
         (format == Format::kitti || format == Format::g2o) && a.times_out.empty();
@@ -254,7 +250,6 @@ int plot_files(const TrajArguments& a) {
   if (!a.reference.empty()) reference = read_named(a.reference, a.reading);
   const NamedTrajectories all =
       read_all_named(a.files, a.reading, reference ? &*reference : nullptr);
-  protect_inputs(a, {a.out});
   reject_standard_output("-o", a.out);
   if (!is_figure_name(a.out)) {
     throw InputError(a.out + ": expected a file name that ends in .svg, .pdf, .png or .pgf");

@@ -12,22 +12,26 @@ namespace loopbench::harness {
 namespace {
 
 void declare_inputs(CLI::App& verb, TrajArguments& a) {
-  verb.add_option("files",
-                  a.files,
-                  "Trajectories: files (also compressed), - for standard input, bag:FILE#/topic or "
-                  "bag:FILE#tf:PARENT.CHILD")
+  reads(verb,
+        verb.add_option("files",
+                        a.files,
+                        "Trajectories: files (also compressed), - for standard input, "
+                        "bag:FILE#/topic or bag:FILE#tf:PARENT.CHILD"))
       ->required()
       ->expected(1, -1);
   declare_reading(verb, a.reading);
 }
 
 void declare_output(CLI::App& verb, TrajArguments& a) {
-  add(verb, "-o,--out PATH", a.out, "Output file, or folder for several; - is standard output");
+  const char* const help = "Output file, or folder for several; - is standard output";
+  writes(verb, add(verb, "-o,--out PATH", a.out, help), FileKind::trajectory);
   add(verb,
       "--to WORD:tum|kitti|euroc|g2o|csv",
       a.to,
       "Output format (default: by the ending of -o, or tum)");
-  add(verb, "--times-out FILE", a.times_out, "File for the stamps of KITTI poses");
+  writes(verb,
+         add(verb, "--times-out FILE", a.times_out, "File for the stamps of KITTI poses"),
+         FileKind::stamps);
 }
 
 void declare_offset(CLI::App& verb, TrajArguments& a) {
@@ -42,7 +46,7 @@ void declare_changes(CLI::App& verb, TrajArguments& a) {
 }
 
 void declare_pairing(CLI::App& verb, TrajArguments& a) {
-  add(verb, "--ref FILE", a.reference, "Reference trajectory")->required();
+  reads(verb, add(verb, "--ref FILE", a.reference, "Reference trajectory"))->required();
   verb.add_option("--association",
                   a.association,
                   "Pairing: evo (nearest stamp, a pose can be paired twice) or nearest "
@@ -63,10 +67,12 @@ void declare_crop(CLI::App& verb, TrajArguments& a) {
 void declare_transform(CLI::App& verb, TrajArguments& a) {
   const char* const values =
       "x,y,z [m] or x,y,z,qx,qy,qz,qw, or a JSON file with these keys and scale";
-  auto* left = verb.add_option(
-      "--left", a.left, std::string("Transform to multiply on the left: ") + values);
-  auto* right = verb.add_option(
-      "--right", a.right, std::string("Transform to multiply on the right: ") + values);
+  const auto transform = [&](const char* name, std::string& value, const char* side) {
+    const std::string help = std::string("Transform to multiply on the ") + side + ": " + values;
+    return reads(verb, verb.add_option(name, value, help));
+  };
+  auto* left = transform("--left", a.left, "left");
+  auto* right = transform("--right", a.right, "right");
   right->excludes(left);
   verb.add_flag("--invert", a.invert, "Use the inverse of the transform");
   verb.add_flag("--propagate", a.propagate, "Apply --right to each relative pose, as drift")
@@ -123,8 +129,9 @@ const std::vector<VerbInfo>& verb_infos() {
       {"plot",
        "Plot trajectories: their plane, space, position, orientation and speed over time",
        {[](CLI::App& verb, TrajArguments& a) {
-         add(verb, "--ref FILE", a.reference, "Reference trajectory");
-         verb.add_option("-o,--out", a.out, "Output file: .svg, .pdf, .png or .pgf")->required();
+         reads(verb, add(verb, "--ref FILE", a.reference, "Reference trajectory"));
+         const char* const help = "Output file: .svg, .pdf, .png or .pgf";
+         writes(verb, verb.add_option("-o,--out", a.out, help)->required(), FileKind::figure);
          add(verb,
              "--panels WORDS",
              a.panels,

@@ -184,6 +184,7 @@ std::vector<DatasetChoice> read_datasets(const YamlNode& entry,
   for (DatasetChoice& choice : out) {
     choice.group = group;
     choice.align = align;
+    choice.line = entry.line;
   }
   return out;
 }

@@ -24,6 +24,7 @@ struct DatasetChoice {
   Choice dataset;
   std::string group = {};  ///< name of a group of dependent runs; empty: see source_of()
   std::optional<metrics::Align> align = {};  ///< under every protocol; none: as the protocol states
+  std::size_t line = 0;                      ///< of the config; 0: unknown
 };
 
 struct MethodChoice {
@@ -86,6 +87,15 @@ struct Sweep {
   std::vector<Exclusion> exclude;
   TableSpec table;
 };
+
+/// `why` of an error in a file of a dataset, followed by the place in the config that names it:
+/// "... (mine.yaml:4)".
+inline std::string with_place(const std::string& why,
+                              const DatasetChoice& dataset,
+                              const Sweep& sweep) {
+  if (dataset.line == 0) return why;
+  return why + " (" + sweep.config.string() + ":" + std::to_string(dataset.line) + ")";
+}
 
 /// The sweep with the alignment of a dataset in all protocols; none if the dataset states none.
 inline std::optional<Sweep> with_alignment_of(std::size_t dataset, const Sweep& sweep) {

@@ -39,15 +39,4 @@ void write_result(const std::filesystem::path& file, const std::string& text) {
   replace_file(file, text, Target::own);
 }
 
-void reject_overwriting(const std::vector<std::filesystem::path>& inputs,
-                        const std::filesystem::path& file) {
-  std::error_code error;
-  if (is_dash(file) || !std::filesystem::is_regular_file(file, error)) return;
-  for (const std::filesystem::path& input : inputs) {
-    if (std::filesystem::equivalent(input, file, error) && !error) {
-      throw input_error(file.string(), 0, "is an input of this command and is not overwritten");
-    }
-  }
-}
-
 }  // namespace loopbench::harness

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace loopbench::harness {
 
@@ -21,9 +20,5 @@ void write_file(const std::filesystem::path& file, const std::string& text);
 /// Target::own, so a symbolic link of that name is replaced. Creates missing folders. Throws
 /// InputError.
 void write_result(const std::filesystem::path& file, const std::string& text);
-
-/// Throws InputError if `file` is one of `inputs`, under any name. A missing file is none of them.
-void reject_overwriting(const std::vector<std::filesystem::path>& inputs,
-                        const std::filesystem::path& file);
 
 }  // namespace loopbench::harness
