@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
+#include <functional>
 #include <map>
 #include <optional>
-#include <set>
-#include <sstream>
 
 #include "datasets/core/fields.hpp"
 #include "datasets/files/replace_file.hpp"
@@ -39,54 +37,63 @@ std::string repeat_suffix(const CellRow& cell) {
   return cell.repeat > 0 ? fmt::format("-repeat{}", cell.repeat) : "";
 }
 
-/// Copies a file under the name, or NUMBER-NAME if that is taken, below `comments`. Returns the
-/// name, or "" if there is no file.
-std::string copy_file(const std::filesystem::path& from,
-                      const std::filesystem::path& folder,
-                      std::string name,
-                      std::set<std::string>& names,
-                      const std::string& comments) {
-  const std::ifstream in(from, std::ios::binary);
-  if (!in) return "";
-  if (names.contains(name)) name = fmt::format("{}-{}", names.size(), name);
-  names.insert(name);
-  std::ostringstream poses;
-  poses << in.rdbuf();
-  write_file(folder / name, comments + std::move(poses).str());
-  return name;
-}
+/// Files to write into one folder.
+class ExportedFiles {
+ public:
+  using Read = std::function<std::string()>;  // again when it is written: all are too many to keep
+
+  /// Adds a file under this name, or NUMBER-NAME if that is taken. Returns the name, or "" without
+  /// text.
+  std::string add(std::string name, const std::string& comments, const Read& read) {
+    if (read().empty()) return "";
+    if (files_.contains(name)) name = fmt::format("{}-{}", files_.size(), name);
+    files_.emplace(name, [=] { return comments + read(); });
+    return name;
+  }
+
+  void write(const std::filesystem::path& folder, const std::string& index) const {
+    std::vector<OutputFile> outputs{{"--out", folder / "index.csv", FileKind::printed}};
+    for (const auto& [name, read] : files_) {
+      outputs.push_back({"--out", folder / name, FileKind::trajectory});
+    }
+    require_writable(outputs);
+    for (const auto& [name, read] : files_) write_file(folder / name, read());
+    write_file(folder / "index.csv", index);
+  }
+
+ private:
+  std::map<std::string, Read> files_;  ///< content by name
+};
 
 int export_trajectories(const std::filesystem::path& store, const std::filesystem::path& out) {
   if (out.empty()) throw InputError("export --what trajectories: expected -o FOLDER");
   reject_standard_output("-o", out);
   const std::filesystem::path saved = store_file(store).parent_path() / "trajectories";
-  std::set<std::string> names;
+  ExportedFiles files;
   std::map<std::string, std::string> references;  // file of each content
   std::string index = "file,reference,key,sequence,repeat,method,times\n";
-  std::size_t files = 0, without = 0;
+  std::size_t with = 0, without = 0;
   for (const CellRow& cell : read_cells(store)) {
     bool has_file = false;
     const std::string content(cell.content);
     const std::string sequence = cell.sequence.text(), method = cell.method.text();
-    for (const metrics::Times times : {metrics::Times::keyframes, metrics::Times::dense}) {
-      const std::string name = copy_file(
-          estimate_file(saved, cell.key, times),
-          out,
+    for (const metrics::Times times : kAllTimes) {
+      const std::string name = files.add(
           file_name(sequence + "-" + method + repeat_suffix(cell) + "-" + to_text(times) + ".txt"),
-          names,
           fmt::format("# sequence: {}\n# repeat: {}\n# method: {}\n# times: {}\n# key: {}\n",
                       printable(sequence),
                       cell.repeat,
                       printable(method),
                       to_text(times),
-                      cell.key));
+                      cell.key),
+          [=, key = cell.key] { return saved_estimate(saved, key, times); });
       if (name.empty()) continue;
       has_file = true;
-      ++files;
+      ++with;
       const auto [reference, is_new] = references.try_emplace(content);
       if (is_new) {
         const std::string own = file_name("reference-" + sequence + repeat_suffix(cell) + ".txt");
-        reference->second = copy_file(reference_file(saved, content), out, own, names, "");
+        reference->second = files.add(own, "", [=] { return saved_reference(saved, content); });
       }
       index += fmt::format("{},{},{},{},{},{},{}\n",
                            name,
@@ -99,13 +106,13 @@ int export_trajectories(const std::filesystem::path& store, const std::filesyste
     }
     if (!has_file) ++without;
   }
-  if (files == 0) {
+  if (with == 0) {
     throw InputError(store.string() +
                      ": has no saved trajectories; compute its cells with `run "
                      "CONFIG --save-trajectories --retry all`");
   }
-  write_file(out / "index.csv", index);
-  fmt::print("{} with references and index.csv in {}\n", counted(files, "file"), out.string());
+  files.write(out, index);
+  fmt::print("{} with references and index.csv in {}\n", counted(with, "file"), out.string());
   if (without > 0) fmt::print("{} without a saved trajectory\n", counted(without, "cell"));
   return kExitOk;
 }
@@ -115,7 +122,7 @@ void export_rows(const std::filesystem::path& store, const std::filesystem::path
   const StoreProvenance provenance = read_store_provenance(store);
   std::optional<PendingFile> pending;
   if (!file.empty() && !is_dash(file)) {
-    reject_overwriting({store_file(store)}, file);
+    require_writable({provenance_output(file.string())});
     std::error_code ignored;  // a failure is reported when the file is created
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
     pending.emplace(file, Target::named);
@@ -159,7 +166,9 @@ void add_export(CLI::App& app, int& exit_code) {
       "Google Benchmark; notes: what is known about the runs besides their scores, as JSON")
       ->check(CLI::IsMember({"rows", "trajectories", "benchmark", "notes"}))
       ->capture_default_str();
-  command->add_option("-o,--out", a->out, "File (default: standard output), or folder");
+  writes(*command,
+         command->add_option("-o,--out", a->out, "File (default: standard output), or folder"),
+         FileKind::printed);
   command->callback([a, &exit_code] {
     if (a->what == "trajectories") {
       exit_code = export_trajectories(a->store, a->out);
@@ -167,7 +176,6 @@ void add_export(CLI::App& app, int& exit_code) {
     }
     exit_code = kExitOk;
     if (a->what == "benchmark") {
-      if (!a->out.empty()) reject_overwriting({store_file(a->store)}, a->out);
       write_file(a->out.empty() ? "-" : a->out,
                  benchmark_json(read_cells(a->store), read_provenance(a->store)));
       return;

@@ -15,6 +15,7 @@
 #include "harness/commands/standard_output.hpp"
 #include "harness/sweep/catalogue/external_methods.hpp"
 #include "harness/sweep/catalogue/load_sequence.hpp"
+#include "harness/sweep/catalogue/loading.hpp"
 #include "harness/sweep/config/read_sweep.hpp"
 #include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/process/sandbox.hpp"
@@ -23,6 +24,7 @@
 #include "harness/sweep/run/estimate_files.hpp"
 #include "harness/sweep/run/isolated_sweep.hpp"
 #include "harness/sweep/run/run_cell.hpp"
+#include "harness/sweep/store/find_stores.hpp"
 #include "harness/sweep/store/shard.hpp"
 #include "harness/sweep/store/store.hpp"
 #include "harness/sweep/text/counted.hpp"
@@ -86,6 +88,7 @@ struct RunPlan {
   std::filesystem::path out;    ///< folder of the store
 
   std::filesystem::path store() const { return out / "results.sqlite"; }
+  bool has_tables() const { return all.size() <= kMostCellsInTables; }
 };
 
 /// Throws InputError.
@@ -132,8 +135,8 @@ CellCounts compute(const RunPlan& plan,
       ++out.abandoned;
       return;
     }
-    store.write(r);
     keep_estimate(r.cell, keys.key(r.cell, r.metadata ? r.metadata->inputs : no_inputs));
+    store.write(r);
     const std::string& method = sweep.methods[r.cell.method].label;
     ++out.done;
     if (has_failure(r)) ++out.failed;
@@ -170,7 +173,7 @@ void tell(const RunPlan& plan, const CellCounts& counts, std::optional<Store>& s
                printable(plan.store().string()),
                merge_command(plan.given));
   } else {
-    const bool has_tables = plan.all.size() <= kMostCellsInTables;
+    const bool has_tables = plan.has_tables();
     if (has_tables) {
       const std::vector<Record> records =
           all_records(plan.store(), asked_by(plan.sweep.table, plan.sweep.table.where));
@@ -197,11 +200,25 @@ void tell(const RunPlan& plan, const CellCounts& counts, std::optional<Store>& s
       counts.abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", counts.abandoned));
 }
 
+/// Hides the data of all sequences, also of those that are not loaded yet, and all stores in reach.
 SandboxOptions sandbox_of(const RunPlan& plan, const RunArguments& arguments) {
+  namespace fs = std::filesystem;
   SandboxOptions out;
   out.enabled = !arguments.no_sandbox;
-  out.hidden = {plan.given, plan.given / "results.sqlite"};
+  if (!uses_programs(plan.sweep)) return out;
+  for (const DatasetChoice& choice : plan.sweep.datasets) {
+    if (choice.dataset.name == "simulated") continue;  // its path is no file
+    for (const fs::path& each : files_of_options(choice.dataset.options, plan.root)) {
+      out.hidden.push_back(each);
+    }
+  }
   if (!arguments.data.empty()) out.hidden.emplace_back(arguments.data);
+  for (const fs::path& each :
+       {plan.given, plan.given / "results.sqlite", fs::temp_directory_path(), cache_folder()}) {
+    if (!each.empty()) out.hidden.push_back(each);
+  }
+  const std::vector<fs::path> near{plan.root.folders.front(), folder_of(plan.given), "."};
+  for (const fs::path& part : stores_in(near)) out.hidden.push_back(part);
   return out;
 }
 
@@ -213,15 +230,22 @@ int run_config(const RunArguments& arguments, const Source& source) {
     return dry_run(planned.sweep, planned.planned, planned.known, planned.root);
   }
   require_parts(planned.sweep, planned.planned, planned.known);
+  if (!planned.shard && planned.has_tables()) require_writable(table_files(planned.out));
   if (planned.planned.empty() && planned.shard) {
     fmt::print("shard {} has no cells\n", planned.shard->name());
     return kExitOk;
   }
   std::map<std::string, std::string> facts = provenance(source, planned.sweep, planned.known);
-  if (arguments.save_trajectories) set_estimate_folder(planned.out / "trajectories");
-  if (uses_programs(planned.sweep)) facts["sandbox"] = is_sandboxed() ? "bubblewrap" : "none";
+  if (uses_programs(planned.sweep)) {
+    facts["sandbox"] = is_sandboxed() ? "bubblewrap" : "none";
+    const std::string with_network = programs_with_network(planned.sweep);
+    const bool is_closed = is_sandboxed() && can_hide_network();
+    facts["network"] = is_closed ? with_network : "open to all programs";
+    if (facts["network"].empty()) facts["network"] = "none";
+  }
   CellKeys keys(planned.sweep, planned.known, planned.root, build_id(source.code));
   std::optional<Store> store(std::in_place, planned.store(), keys, facts, arguments.fresh);
+  if (arguments.save_trajectories) set_estimate_folder(planned.out / "trajectories");
   if (planned.shard) {
     store->set_shard(planned.shard->name() + " " + division_hash(planned.selected));
   }
@@ -270,6 +294,7 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->capture_default_str();
   command.add_flag(
       "--fresh", a.fresh, "Recompute all cells; keep the old store as previous-N.sqlite");
+  declare_force(command);
   command.callback([arguments, source, &exit_code] { exit_code = run_config(*arguments, source); });
 }
 

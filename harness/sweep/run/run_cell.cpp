@@ -138,6 +138,7 @@ CellResult run_cell(const Cell& cell,
   if (const auto own = with_alignment_of(cell.dataset, sweep)) {
     return run_cell(cell, *own, sequence, catalogue);
   }
+  forget_estimate(cell);
   CellResult result;
   result.cell = cell;
   const MethodChoice& choice = sweep.methods[cell.method];

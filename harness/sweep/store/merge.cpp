@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
 #include <sstream>
 
 #include "datasets/core/error.hpp"
 #include "harness/sweep/model/evaluated_run.hpp"
+#include "harness/sweep/store/merge_trajectories.hpp"
 #include "harness/sweep/store/open.hpp"
 #include "harness/sweep/store/schema.hpp"
 #include "harness/sweep/store/shard.hpp"
@@ -264,21 +264,19 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
                     const std::filesystem::path& out,
                     const MergeOptions& options) {
   std::vector<std::filesystem::path> all = stores;
-  std::optional<FolderLock> lock;
-  if (std::filesystem::exists(out)) {
-    if (!options.add) {
-      throw InputError(out.string() +
-                       ": already exists; merge writes a new store, or adds to it with --add");
-    }
-    lock.emplace(folder_of(out));
-    all.insert(all.begin(), out);
+  const FolderLock lock(folder_of(out));
+  const bool is_there = std::filesystem::exists(out);
+  if (is_there && !options.add) {
+    throw InputError(out.string() +
+                     ": already exists; merge writes a new store, or adds to it with --add");
   }
+  if (is_there) all.insert(all.begin(), out);
   const std::filesystem::path partial = out.string() + ".partial";
-  std::error_code none;
-  if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path(), none);
   remove_database(partial);
   try {
     const Merged result = merge_all(all, partial, options.mixed_builds);
+    merge_trajectories(all, partial, folder_of(out) / "trajectories");
+    if (is_there) include_log(out);
     rename_durably(partial, out);
     return result;
   } catch (const std::filesystem::filesystem_error& error) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -124,23 +125,58 @@ Database open_store(const std::filesystem::path& given) {
   return database;
 }
 
-FolderLock::FolderLock(const std::filesystem::path& folder)
-    : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0) {
-    throw InputError(folder.string() + ": cannot be opened: " + std::strerror(errno));
+namespace {
+
+/// Creates a folder and those above it. Returns those that were missing, the outermost first.
+std::vector<std::filesystem::path> create_folders(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> missing;
+  std::error_code error;
+  for (std::filesystem::path at = folder; !at.empty() && !std::filesystem::exists(at, error);
+       at = at.parent_path()) {
+    missing.insert(missing.begin(), at);
   }
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-  const int reason = errno;
-  close(descriptor_);
-  if (reason == EWOULDBLOCK) {
-    throw InputError(folder.string() +
-                     ": another sweep is writing its results here; wait for it, "
-                     "or choose another folder with --out");
-  }
-  throw InputError(folder.string() + ": cannot be locked: " + std::strerror(reason));
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder.string() + ": cannot be written: " + error.message());
+  return missing;
 }
 
-FolderLock::~FolderLock() { close(descriptor_); }
+/// Whether the open folder is still the one of this name: its last user can have removed it.
+bool is_same_folder(int descriptor, const std::filesystem::path& folder) {
+  struct stat opened {};
+  struct stat named {};
+  return fstat(descriptor, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const std::filesystem::path& folder) {
+  constexpr int kMostAttempts = 100;
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    for (const std::filesystem::path& each : create_folders(folder)) created_.push_back(each);
+    descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    int reason = descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) != 0 ? errno : 0;
+    if (reason == 0 && is_same_folder(descriptor_, folder)) return;
+    if (descriptor_ >= 0) close(descriptor_);
+    if (reason == EWOULDBLOCK) {
+      throw InputError(folder.string() +
+                       ": another sweep is writing its results here, or a merge; wait for it, "
+                       "or choose another folder with --out");
+    }
+    if (reason != 0 && reason != ENOENT) {
+      throw InputError(folder.string() + ": cannot be locked: " + std::strerror(reason));
+    }
+  }
+  throw InputError(folder.string() + ": cannot be locked: other processes keep removing it");
+}
+
+FolderLock::~FolderLock() {
+  std::error_code not_empty;
+  for (auto each = created_.rbegin(); each != created_.rend(); ++each) {
+    std::filesystem::remove(*each, not_empty);
+  }
+  close(descriptor_);
+}
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
@@ -150,6 +186,17 @@ void rename_durably(const std::filesystem::path& from, const std::filesystem::pa
   sync_path(from);
   std::filesystem::rename(from, to);
   sync_path(folder_of(to));
+}
+
+void include_log(const std::filesystem::path& file) {
+  {
+    Database database(file, Database::Mode::read);
+    database.execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE");
+  }
+  std::error_code none;
+  const std::filesystem::path log = file.string() + "-wal";
+  if (!std::filesystem::exists(log, none) || std::filesystem::file_size(log, none) == 0) return;
+  throw InputError(file.string() + ": cannot be replaced while another program reads it");
 }
 
 void remove_database(const std::filesystem::path& file) {

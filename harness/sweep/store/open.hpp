@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "harness/sweep/store/sqlite.hpp"
 
@@ -30,18 +31,21 @@ bool has_no_tables(const std::filesystem::path& file);
 /// tables, views, indexes or triggers that are missing, changed or added.
 void check_schema(Database& database, const std::filesystem::path& file);
 
-/// Locks a folder, so that one sweep at a time writes there, until destroyed or until the process
-/// ends; a killed process leaves no lock behind.
+/// Locks a folder, so that one command at a time creates or writes a store there, until destroyed
+/// or until the process ends; a killed process leaves no lock behind. Creates the folder, and
+/// removes it at the end if it has stayed empty.
 class FolderLock {
  public:
-  /// Throws InputError if another process holds the lock, or the folder cannot be opened.
+  /// Throws InputError if another process holds the lock, or the folder cannot be created or
+  /// opened.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  int descriptor_;
+  std::vector<std::filesystem::path> created_;  ///< the outermost first
+  int descriptor_ = -1;
 };
 
 /// The folder of a file given by a path.
@@ -50,6 +54,10 @@ std::filesystem::path folder_of(const std::filesystem::path& file);
 /// Waits until the file is on the disk, renames it, and waits until the new name is, too. Throws
 /// std::filesystem::filesystem_error.
 void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Puts all of a store into its one file: no log of a killed process is left, which would belong to
+/// a file that replaces it. Throws InputError if other programs that read it prevent that.
+void include_log(const std::filesystem::path& file);
 
 /// Removes a file and SQLite's journals of it. Ignores errors.
 void remove_database(const std::filesystem::path& file);

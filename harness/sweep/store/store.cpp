@@ -22,20 +22,15 @@ std::filesystem::path next_previous(const std::filesystem::path& folder) {
   }
 }
 
-/// Moves the log of a killed process into the file, so that one rename keeps all of its cells.
-void include_log(const std::filesystem::path& file) {
-  try {
-    Database(file, Database::Mode::create).execute("PRAGMA wal_checkpoint(TRUNCATE)");
-  } catch (const InputError&) {
-    // Damaged: the log is kept next to the file.
-  }
-}
-
 void set_aside(const std::filesystem::path& file) {
   try {
     const std::filesystem::path previous = next_previous(file.parent_path());
     if (std::filesystem::exists(file)) {
-      include_log(file);
+      try {
+        include_log(file);  // so that one rename keeps all of its cells
+      } catch (const InputError&) {
+        // Damaged, or read by others: the log is moved, too.
+      }
       std::filesystem::rename(file, previous);
     }
     // A log that is left belongs to the moved file and would corrupt the new one.
@@ -133,8 +128,7 @@ Store::Store(std::filesystem::path file,
              bool fresh)
     : file_(std::move(file)), keys_(keys), provenance_(std::move(provenance)), fresh_(fresh) {
   reject_links(file_);
-  const std::filesystem::path folder = folder_of(file_);
-  if (std::filesystem::is_directory(folder)) lock_ = std::make_unique<FolderLock>(folder);
+  if (!is_memory_store(file_)) lock_ = std::make_unique<FolderLock>(folder_of(file_));
   if (fresh_ || !std::filesystem::exists(file_)) return;
   database_ = std::make_unique<Database>(file_, Database::Mode::read);
   empty_ = has_no_tables(*database_);
@@ -166,22 +160,8 @@ void Store::close() {
   }
 }
 
-void Store::claim_folder() {
-  const std::filesystem::path folder = folder_of(file_);
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) throw InputError(file_.string() + ": cannot be written: " + failed.message());
-  if (!lock_) {
-    lock_ = std::make_unique<FolderLock>(folder);
-    if (std::filesystem::exists(file_)) {  // created since the check above
-      throw InputError(file_.string() + ": another sweep created it in the meantime; run again");
-    }
-  }
-  if (!empty_) set_aside(file_);
-}
-
 void Store::create() {
-  if (!is_memory_store(file_)) claim_folder();
+  if (!is_memory_store(file_) && !empty_) set_aside(file_);
   database_ = std::make_unique<Database>(file_, Database::Mode::create);
   make_ready(*database_);
   Transaction transaction(*database_);

@@ -50,10 +50,10 @@ class CellWriter;
 
 class Store {
  public:
-  /// `file` can be a memory_store(). Locks the folder if it exists. Opens an existing store; with
+  /// `file` can be a memory_store(). Creates and locks its folder. Opens an existing store; with
   /// `fresh` keeps it as `previous-N.sqlite` next to a new one. Writes nothing before resume() or
-  /// write(). Throws InputError if another sweep is writing, or the file is not a store, has
-  /// another schema, or is damaged.
+  /// write(): then the destructor removes a folder that is new. Throws InputError if another sweep
+  /// is writing, or the file is not a store, has another schema, or is damaged.
   Store(std::filesystem::path file,
         CellKeys& keys,
         std::map<std::string, std::string> provenance,
@@ -82,7 +82,6 @@ class Store {
  private:
   /// Waits until all written cells are on the disk. Throws InputError.
   void sync();
-  void claim_folder();
   void create();
   /// Writes what has changed of the table run; whether nothing has.
   bool update_description();

@@ -8,6 +8,7 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/parallel.hpp"
+#include "harness/sweep/store/missing_rows.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -268,6 +269,8 @@ std::set<std::string> damaged_rows(Database& database, const SharedTable& table)
     row.read(hash);
     if (row.hashed(0, 1, 1) != hash) out.insert(row.text());
   }
+  if (std::string_view(table.name) == kProvenanceTable.name)
+    out.merge(incomplete_provenance(database));
   return out;
 }
 
@@ -280,6 +283,9 @@ std::set<std::string> remove_damaged_rows(Database& database, const SharedTable&
 }
 
 void require_intact_descriptions(Database& database) {
+  if (const std::string missing = missing_run_value(database); !missing.empty()) {
+    throw_damaged(database.file(), "row " + missing + " of its table run is");
+  }
   for (const SharedTable& table : {kRunTable, kProvenanceTable, kInputTable, kSequenceNoteTable}) {
     const std::set<std::string> damaged = damaged_rows(database, table);
     if (damaged.empty()) continue;
