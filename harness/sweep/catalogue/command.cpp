@@ -48,8 +48,7 @@ Trajectory run_once(const CommandOptions& options,
   }
   add_statements(report, metadata);
   own = time_of_run(report, metadata, ran.seconds);
-  report.count(kProgramTime, ran.end.cpu_seconds);
-  report.count(kProgramMemory, static_cast<double>(ran.end.peak_memory));
+  add_costs(ran.end.cpu_seconds, ran.end.peak_memory);
   add_output(report, ran.output);
   return out;
 }
@@ -61,7 +60,7 @@ Trajectory corrected(const CommandOptions& options,
   const auto begin = ExchangeClock::now();
   double own = 0.0;
   Trajectory out = run_once(options, problem, report, own);
-  report.phases.push_back({kExchangePhase, seconds_since(begin) - own});  // with its end
+  program_costs().exchange_seconds += seconds_since(begin) - own;  // with its end
   return out;
 }
 
@@ -141,6 +140,7 @@ ProgramRun run_in_folder(const CommandOptions& options,
       {{name, folder / name}, {"result", folder / "result"}}, folder, options.run, options.shell);
   start.folder = options.folder;
   start.sandbox = &program_sandbox();
+  start.network = options.network;
   ProgramRun out;
   const auto started = ExchangeClock::now();
   RunningProgram tree(start);
@@ -196,23 +196,41 @@ void add_output(methods::Report& report, const std::string& output) {
   if (!text.empty()) report.notes.push_back("output: " + text);
 }
 
-std::string command_version(const CommandOptions& options) {
+namespace {
+
+std::string output_of_version(const CommandOptions& options, const ProcessLimits& limits) {
+  const ExchangeFolder folder;
+  ProgramStart start;
+  start.arguments = split_arguments("version", options.version);
+  start.folder = options.folder;
+  start.sandbox = &program_sandbox();
+  start.environment = {{"TMPDIR", folder.path().string()}};
+  start.writable = folder.path();
+  start.network = options.network;
+  const std::string what = "version: " + options.version + ": ";
+  const auto run = [&] {
+    std::string output;
+    const ProgramEnd end = RunningProgram(start).wait(output);
+    if (end.exit_code != 0) throw InputError(with_output(what + text(end), output));
+    return output;
+  };
+  try {
+    return in_own_process(run, limits);
+  } catch (const ProcessFailure& error) {
+    throw InputError(what + error.what());
+  }
+}
+
+}  // namespace
+
+std::string command_version(const CommandOptions& options, const ProcessLimits& limits) {
   Fields fields;
   const std::string& line = options.run.empty() ? options.serve : options.run;
   for (const std::string& name : named_files(line, options.depends, options.folder)) {
     fields.add(name).add(hex(hash_of_file(options.folder / name)));
   }
   if (options.version.empty()) return fields.hashed();
-  ProgramStart start;
-  start.arguments = split_arguments("version", options.version);
-  start.folder = options.folder;
-  start.sandbox = &program_sandbox();
-  std::string output;
-  const ProgramEnd end = RunningProgram(start).wait(output);
-  if (end.exit_code != 0) {
-    throw InputError(with_output("version: " + options.version + ": " + text(end), output));
-  }
-  return fields.add(output).hashed();
+  return fields.add(output_of_version(options, limits)).hashed();
 }
 
 }  // namespace loopbench::harness

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "harness/sweep/catalogue/exchange.hpp"
+#include "harness/sweep/process/own_process.hpp"
 #include "harness/sweep/process/program.hpp"
 #include "methods/method.hpp"
 
@@ -22,7 +23,10 @@ struct CommandOptions {
   ResultPoses output = ResultPoses::keyframes;
   std::string depends;
   std::string version;
-  std::filesystem::path folder = ".";  ///< working directory: that of the config; not an option
+  bool network = false;
+  // No options:
+  std::filesystem::path folder = ".";  ///< working directory: that of the config
+  std::string role = "method";         ///< or "metric", whose processes have seen references
 };
 
 template <class Visit>
@@ -39,6 +43,7 @@ void fields(CommandOptions& o, Visit visit) {
   visit("output", o.output, "poses of the result");
   visit("depends", o.depends, "files whose change recomputes the cells, separated by blanks");
   visit("version", o.version, "command whose output is the version; its change recomputes cells");
+  visit("network", o.network, "whether the program can use the network");
 }
 
 /// Throws OptionError unless exactly one of run and serve is set and can be split, run names
@@ -78,9 +83,10 @@ std::vector<std::string> command_words(const std::string& option,
                                        const std::string& text,
                                        bool shell);
 
-/// Hashes of the files that the command line and `depends` name, and the output of `version`.
-/// Throws InputError if a file under `depends` is missing or `version` fails.
-std::string command_version(const CommandOptions& options);
+/// Hashes of the files that the command line and `depends` name, and the output of `version`, which
+/// runs under these limits. Throws InputError if a file under `depends` is missing or `version`
+/// fails.
+std::string command_version(const CommandOptions& options, const ProcessLimits& limits);
 
 /// `why`, with the end of a program's output.
 std::string with_output(const std::string& why, const std::string& output);

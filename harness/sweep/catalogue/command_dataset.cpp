@@ -37,6 +37,7 @@ struct CommandDatasetOptions {
   UsedTrajectory use = UsedTrajectory::open;
   bool shell = false;
   std::string depends;
+  bool network = false;
   double seconds = 0.0;
   double memory = 0.0;
   InformationRules rules;
@@ -58,6 +59,7 @@ void fields(CommandDatasetOptions& o, Visit visit) {
   visit("use", o.use, "trajectory to correct or evaluate; closed: after the program's own closing");
   visit("shell", o.shell, "whether sh interprets the text of run");
   visit("depends", o.depends, "files whose change runs the program again, separated by blanks");
+  visit("network", o.network, "whether the program can use the network");
   visit("seconds", o.seconds, "time limit of the program [s]; 0: that of cells", Between{0.0});
   visit(
       "memory", o.memory, "memory limit of the program [MiB]; 0: that of cells", Between{0.0, 1e9});
@@ -96,19 +98,21 @@ std::set<std::filesystem::path> program_files(const CommandDatasetOptions& o,
   return out;
 }
 
-/// With what determines which files the program could read: its output can depend on the reference
-/// unless that was hidden.
+/// With what determines which files the program could read.
 std::string output_key(const CommandDatasetOptions& o,
                        const std::set<std::filesystem::path>& program,
-                       const std::set<std::filesystem::path>& sequence,
+                       const std::filesystem::path& sequence,
                        const DataRoot& root) {
   Fields out;
-  out.add("command dataset 3").add(o.run).add(o.shell ? "sh" : "").add(o.version);
+  out.add("command dataset 4").add(o.run).add(o.shell ? "sh" : "").add(o.version);
   out.add(std::to_string(o.trajectory.seed));
   for (const auto& file : program) out.add(hex(hash_of_file(file)));
   out.add("sequence");
-  for (const auto& file : sequence) out.add(file.filename().string()).add(hex(hash_of_file(file)));
+  for (const auto& file : files_of_sequence(sequence)) {
+    out.add(file.lexically_relative(sequence).string()).add(hex(hash_of_file(file)));
+  }
   out.add(is_sandboxed() ? "sandbox" : "no sandbox");
+  out.add(o.network || !can_hide_network() ? "network" : "");
   for (const auto& folder : root.folders) out.add(std::filesystem::absolute(folder).string());
   out.add(o.trajectory.reference);
   return out.hashed();
@@ -142,6 +146,7 @@ ProgramCost run_program(const CommandDatasetOptions& o,
                                 {{"seed", std::to_string(o.trajectory.seed & kMostSeed)}});
   start.folder = folder;
   start.sandbox = &sandbox;
+  start.network = o.network;
   if (!sequence.empty()) start.readable.push_back(sequence);
   std::string output;
   // Without arguments in braces: their paths would fill the line.
@@ -231,26 +236,24 @@ Sequence load_command(const CommandDatasetOptions& o,
   const std::filesystem::path folder = root.folders.empty() ? "." : root.folders.front();
   const std::filesystem::path sequence = found_sequence(o.sequence, root);
   const auto program = program_files(o, folder);
-  const auto recording = files_of_sequence(sequence);
   const std::filesystem::path kept =
       cache.empty() ? std::filesystem::temp_directory_path() / "loopbench-programs"
                     : cache / "programs";
   const ProgramOutput out =
-      kept_output(kept, output_key(o, program, recording, root), [&](const auto& to) {
+      kept_output(kept, output_key(o, program, sequence, root), [&](const auto& to) {
         return run_program(o, root, folder, sequence, to);
       });
   require_limits(o, out.cost);
 
   TrajectoryOptions options = o.trajectory;
   const std::string open = std::filesystem::absolute(out.trajectory).string();
-  const auto exists = [](const std::string& file) { return std::filesystem::exists(file); };
   const bool is_closed = o.use == UsedTrajectory::closed;
   options.estimate = is_closed ? open + ".closed" : open;
-  if (is_closed && !exists(options.estimate)) {
+  if (is_closed && !std::filesystem::exists(options.estimate)) {
     throw InputError("run: " + o.run + ": the program wrote no {trajectory}.closed");
   }
-  if (!is_closed && exists(open + ".frames")) options.frames = open + ".frames";
-  if (!is_closed && exists(open + ".loops")) {
+  if (!is_closed && std::filesystem::exists(open + ".frames")) options.frames = open + ".frames";
+  if (!is_closed && std::filesystem::exists(open + ".loops")) {
     options.closures = ClosureSource::file;
     options.closures_file = open + ".loops";
   }
@@ -260,7 +263,7 @@ Sequence load_command(const CommandDatasetOptions& o,
       is_graph ? load_pose_graph(graph_options(o, open), root) : load_trajectory(options, root);
   loaded.provenance.notes.push_back(cost_note(out.cost, loaded.problem.keyframes));
   loaded.provenance.closures = is_closed ? "none: closed by the program" : "of the program";
-  for (const auto& files : {program, recording}) {
+  for (const auto& files : {program, files_of_sequence(sequence)}) {
     for (const auto& file : files) loaded.provenance.inputs.push_back({file, ""});
   }
   return loaded;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "datasets/core/fields.hpp"
+#include "datasets/formats/replace_file.hpp"
 #include "harness/sweep/catalogue/message.hpp"
 #include "harness/sweep/catalogue/scratch.hpp"
 #include "harness/sweep/catalogue/server.hpp"
@@ -69,6 +70,7 @@ std::string answer_of_run(const metrics::Evaluation& evaluation, const CommandOp
   const ExchangeFolder folder;
   const std::filesystem::path input = folder.path() / "evaluation";
   std::filesystem::create_directory(input);
+  const WithoutSync of_exchange;
   write_file(input / "reference.txt", lines_of(evaluation.reference));
   write_file(input / "estimate.txt", lines_of(evaluation.estimate));
   write_file(input / "evaluation.json", description(evaluation).dump() + "\n");
@@ -107,6 +109,11 @@ metrics::Score score_of(const nlohmann::json& entry, int ddof, std::size_t pairs
 
 }  // namespace
 
+CommandOptions as_metric(CommandOptions program) {
+  program.role = "metric";
+  return program;
+}
+
 metrics::MetricEntry command_metric() {
   return metrics::metric<CommandMetricOptions>(
       kCommand, "any program; see metrics/programs.md", score_here);
@@ -130,7 +137,8 @@ std::vector<metrics::Score> parse_scores(const std::string& text, int ddof, std:
 }
 
 std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation,
-                                           const CommandOptions& program) {
+                                           const CommandOptions& given) {
+  const CommandOptions program = as_metric(given);
   const int ddof = evaluation.protocol.ddof;
   const std::size_t pairs = evaluation.reference.size();
   if (program.serve.empty()) return parse_scores(answer_of_run(evaluation, program), ddof, pairs);

@@ -19,6 +19,9 @@ namespace loopbench::harness {
 /// Its entry; programs run in the current folder.
 metrics::MetricEntry command_metric();
 
+/// With the role of a metric: a program that is also a method is another process.
+CommandOptions as_metric(CommandOptions program);
+
 /// Scores of a program. Throws as MetricEntry::score.
 std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation,
                                            const CommandOptions& program);

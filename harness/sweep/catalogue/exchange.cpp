@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "datasets/core/fields.hpp"
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/formats.hpp"
+#include "datasets/formats/replace_file.hpp"
 #include "harness/sweep/process/write_file.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
@@ -64,15 +67,46 @@ void require_cover(Trajectory& poses, const Problem& problem, const std::string&
 
 }  // namespace
 
-std::optional<double> phase_seconds(const methods::Report& report, std::string_view name) {
-  std::optional<double> out;
-  for (const methods::Phase& phase : report.phases) {
-    if (phase.name == name) out = out.value_or(0.0) + phase.seconds;
+ProgramCosts& program_costs() {
+  static thread_local ProgramCosts costs;
+  return costs;
+}
+
+void add_costs(double cpu_seconds, std::int64_t peak_memory) {
+  ProgramCosts& costs = program_costs();
+  costs.is_measured = true;
+  costs.cpu_seconds += cpu_seconds;
+  costs.peak_memory = std::max(costs.peak_memory, peak_memory);
+}
+
+void settle_costs(methods::Report& report) {
+  std::set<std::string> removed;
+  const auto remove = [&](auto& items, const std::set<std::string>& reserved) {
+    std::erase_if(items, [&](const auto& item) {
+      const bool is_reserved = reserved.contains(item.name);
+      if (is_reserved) removed.insert(item.name);
+      return is_reserved;
+    });
+  };
+  remove(report.counts, {kProgramTime, kProgramMemory});
+  remove(report.phases, {kExchangePhase, kWallPhase});
+  for (const std::string& name : removed) {
+    report.notes.push_back("'" + name +
+                           "' is measured by loopbench: what the method states is ignored");
   }
-  return out;
+  const ProgramCosts costs = std::exchange(program_costs(), {});
+  if (!costs.is_measured) return;
+  report.count(kProgramTime, costs.cpu_seconds);
+  report.count(kProgramMemory, static_cast<double>(costs.peak_memory));
+  report.phases.insert(report.phases.begin(),
+                       methods::Phase{kExchangePhase, costs.exchange_seconds});
+  if (costs.stated_run) {
+    report.phases.insert(report.phases.begin(), methods::Phase{kWallPhase, *costs.stated_run});
+  }
 }
 
 void write_problem(const std::filesystem::path& folder, const Problem& problem) {
+  const WithoutSync of_exchange;
   const PoseGraph graph = problem_graph(problem, problem.keyframes);
   write_g2o(folder / "graph.g2o", graph);
   write_tum(folder / "keyframes.txt", problem.keyframes);
@@ -217,7 +251,7 @@ double time_of_run(methods::Report& report, const ResultMetadata& metadata, doub
   report.notes.push_back(std::string("time: ") +
                          (is_stated ? "as stated by the program" : kWallPhase));
   if (!is_stated) return wall;
-  report.phases.push_back({kWallPhase, wall});
+  program_costs().stated_run = program_costs().stated_run.value_or(0.0) + wall;
   return metadata.seconds;
 }
 

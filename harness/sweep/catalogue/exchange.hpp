@@ -13,11 +13,11 @@
 /// {name: number}, phases: {name: seconds}, notes: [text]}, every key optional.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
@@ -33,13 +33,29 @@ inline constexpr int kExchangeVersion = 1;
 inline constexpr const char* kExchangePhase = "start and exchange";
 inline constexpr const char* kWallPhase = "from start to end of the program";
 
-/// Sum of the phases with that name [s]; none if there are none: no program computed the result, or
-/// its time is not its own statement.
-std::optional<double> phase_seconds(const methods::Report& report, std::string_view name);
-
 /// Counts of a report that are measured, so that they differ between runs.
 inline constexpr const char* kProgramTime = "program_cpu_seconds";
 inline constexpr const char* kProgramMemory = "program_memory";  ///< largest resident size [bytes]
+
+/// What programs have cost a method, as loopbench measures it. Kept apart from reports, which
+/// programs and plugins write.
+struct ProgramCosts {
+  bool is_measured = false;  ///< a program has run
+  double cpu_seconds = 0.0;
+  std::int64_t peak_memory = 0;      ///< largest resident size [bytes]
+  double exchange_seconds = 0.0;     ///< kExchangePhase
+  std::optional<double> stated_run;  ///< kWallPhase; none: no time is a statement
+};
+
+/// Of this thread; methods that run programs add to it.
+ProgramCosts& program_costs();
+
+/// Adds the costs of one run or answer of a program.
+void add_costs(double cpu_seconds, std::int64_t peak_memory);
+
+/// Removes counts and phases with the names above from the report of a method, with a note, and
+/// adds program_costs(), which it resets.
+void settle_costs(methods::Report& report);
 
 /// Poses of a result: keyframes only, or any stamps that cover them.
 enum class ResultPoses { keyframes, dense };
@@ -87,7 +103,8 @@ void require_ok(const ResultMetadata& metadata);
 void add_statements(methods::Report& report, const ResultMetadata& metadata);
 
 /// The time of a program that was started for one problem [s]: as it states it, without its start,
-/// if that is at most the `wall` time, which then becomes a phase; otherwise the wall time.
+/// if that is at most the `wall` time, which is then added to program_costs(); otherwise the wall
+/// time.
 double time_of_run(methods::Report& report, const ResultMetadata& metadata, double wall);
 
 }  // namespace loopbench::harness

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "harness/sweep/catalogue/command_metric.hpp"
 #include "harness/sweep/catalogue/server.hpp"
 #include "methods/pipeline.hpp"
 
@@ -32,21 +33,38 @@ bool uses_programs(const Sweep& sweep) {
 }
 
 std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep) {
-  return uses_programs(sweep) ? std::make_unique<const ScratchFolder>() : nullptr;
+  if (!uses_programs(sweep)) return nullptr;
+  remove_left_scratch();
+  return std::make_unique<const ScratchFolder>();
 }
 
 void prepare_programs(const MethodChoice& choice, const Sweep& sweep) {
-  const auto prepare = [&](const Choice& each) {
+  const auto prepare = [&](const Choice& each, bool is_metric) {
     if (!is_program(each)) return;
     const CommandOptions options = command_options(each.options, sweep);
     if (options.serve.empty()) return;
     try {
-      prepare_server(options);
+      prepare_server(is_metric ? as_metric(options) : options);
     } catch (const std::exception&) {  // asking fails for the same reason and reports it
     }
   };
-  std::ranges::for_each(choice.stages, prepare);
-  std::ranges::for_each(sweep.metrics, prepare, &MetricChoice::metric);
+  for (const Choice& stage : choice.stages) prepare(stage, false);
+  for (const MetricChoice& metric : sweep.metrics) prepare(metric.metric, true);
+}
+
+std::string programs_with_network(const Sweep& sweep) {
+  std::string out;
+  const auto add = [&](const std::string& kind, const std::string& label, const Choice& choice) {
+    const auto found = choice.options.find("network");
+    if (!is_program(choice) || found == choice.options.end()) return;
+    if (found->second == Param(true)) out += kind + " " + label + "\n";
+  };
+  for (const DatasetChoice& each : sweep.datasets) add("dataset", each.label, each.dataset);
+  for (const MethodChoice& each : sweep.methods) {
+    for (const Choice& stage : each.stages) add("method", each.label, stage);
+  }
+  for (const MetricChoice& each : sweep.metrics) add("metric", each.label, each.metric);
+  return out;
 }
 
 std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice,

@@ -23,6 +23,9 @@ CommandOptions command_options(const Params& options, const Sweep& sweep);
 /// Whether any of its methods, metrics or datasets runs programs.
 bool uses_programs(const Sweep& sweep);
 
+/// "method mine", "metric height": programs whose config says `network: true`, one per line.
+std::string programs_with_network(const Sweep& sweep);
+
 /// Temporary files of the programs of a sweep and its workers; null unless it uses programs.
 std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep);
 

@@ -1,27 +1,33 @@
 /// Folders for temporary files of programs, named by TMPDIR.
 #pragma once
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace loopbench::harness {
 
-/// A new folder in TMPDIR, removed by the destructor.
+/// A new folder in TMPDIR, removed by the destructor in the process that created it. It is locked
+/// meanwhile, so that others can tell it from one that a killed process has left.
 class NewFolder {
  public:
   /// Throws std::runtime_error if it cannot be created.
   explicit NewFolder(const std::string& prefix) {
-    std::string name = (std::filesystem::temp_directory_path() / (prefix + "XXXXXX")).string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error(name + ": cannot be created: " + std::strerror(errno));
-    }
-    path_ = name;
+    while (!create(prefix)) close(descriptor_);
   }
-  ~NewFolder() { remove(); }
+  ~NewFolder() {
+    if (getpid() == owner_) remove();
+    close(descriptor_);
+  }
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
 
@@ -33,7 +39,20 @@ class NewFolder {
   }
 
  private:
+  /// False if another process took it for one that is left, before it was locked.
+  bool create(const std::string& prefix) {
+    std::string name = (std::filesystem::temp_directory_path() / (prefix + "XXXXXX")).string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error(name + ": cannot be created: " + std::strerror(errno));
+    }
+    path_ = name;
+    descriptor_ = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    return descriptor_ < 0 || (flock(descriptor_, LOCK_EX) != 0 || access(name.c_str(), F_OK) == 0);
+  }
+
   std::filesystem::path path_;
+  pid_t owner_ = getpid();
+  int descriptor_ = -1;
 };
 
 /// For the files of one run of a program.
@@ -41,6 +60,14 @@ struct ExchangeFolder : NewFolder {
   static constexpr const char* kPrefix = "loopbench-exchange-";
   ExchangeFolder() : NewFolder(kPrefix) {}
 };
+
+/// For the files of a program that serves this process and those forked from it.
+struct ServerFolder : NewFolder {
+  static std::string prefix() { return "loopbench-serve-" + std::to_string(getpid()) + "-"; }
+  ServerFolder() : NewFolder(prefix()) {}
+};
+
+inline constexpr std::string_view kSweepPrefix = "loopbench-sweep-";
 
 /// Becomes TMPDIR of this process and of those started from it, until the destructor.
 class ScratchFolder {
@@ -52,11 +79,15 @@ class ScratchFolder {
 
   const std::filesystem::path& path() const { return folder_.path(); }
 
-  /// Removes the folders of exchanges whose process was killed.
+  /// Removes the folders of exchanges whose process was killed, and of servers of other processes
+  /// than this one.
   void remove_exchanges() const {
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(path(), ignored)) {
-      if (entry.path().filename().string().starts_with(ExchangeFolder::kPrefix)) {
+      const std::string name = entry.path().filename().string();
+      const bool is_others =
+          name.starts_with("loopbench-serve-") && !name.starts_with(ServerFolder::prefix());
+      if (name.starts_with(ExchangeFolder::kPrefix) || is_others) {
         std::filesystem::remove_all(entry.path(), ignored);
       }
     }
@@ -72,7 +103,26 @@ class ScratchFolder {
 
  private:
   std::filesystem::path before_ = std::filesystem::temp_directory_path();
-  NewFolder folder_{"loopbench-"};
+  NewFolder folder_{std::string(kSweepPrefix)};
 };
+
+/// Removes folders of this user in TMPDIR that killed sweeps have left: nobody holds their locks.
+inline void remove_left_scratch() {
+  constexpr std::size_t kRandom = 6;  // characters, see NewFolder
+  std::error_code ignored;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::temp_directory_path(), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kSweepPrefix) || name.size() != kSweepPrefix.size() + kRandom) continue;
+    const int descriptor =
+        open(entry.path().c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (descriptor < 0) continue;
+    struct stat status {};
+    const bool is_left = fstat(descriptor, &status) == 0 && status.st_uid == geteuid() &&
+                         flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    if (is_left) std::filesystem::remove_all(entry.path(), ignored);
+    close(descriptor);
+  }
+}
 
 }  // namespace loopbench::harness

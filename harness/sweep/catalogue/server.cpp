@@ -17,6 +17,7 @@
 #include <new>
 
 #include "harness/sweep/catalogue/message.hpp"
+#include "harness/sweep/catalogue/scratch.hpp"
 #include "harness/sweep/process/program.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
@@ -31,19 +32,21 @@ struct SharedTurn {
   std::atomic<std::uint64_t> answered = 0;
 };
 
-ProgramStart server_start(const CommandOptions& options) {
+ProgramStart server_start(const CommandOptions& options, const std::filesystem::path& scratch) {
   ProgramStart out;
   out.arguments = command_words("serve", options.serve, options.shell);
   out.folder = options.folder;
+  out.environment = {{"TMPDIR", scratch.string()}};
   out.sandbox = &program_sandbox();
-  out.writable = std::filesystem::temp_directory_path();
+  out.writable = scratch;
+  out.network = options.network;
   out.serves = true;
   return out;
 }
 
 class Server {
  public:
-  explicit Server(const CommandOptions& options) : tree_(server_start(options)) {
+  explicit Server(const CommandOptions& options) : tree_(server_start(options, scratch_.path())) {
     void* shared = mmap(
         nullptr, sizeof(SharedTurn), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED) throw std::runtime_error("cannot start a program: shared memory");
@@ -146,6 +149,7 @@ class Server {
     throw std::runtime_error("the program " + text(tree_.wait(*errors_)) + " before its answer");
   }
 
+  const ServerFolder scratch_;  // removed after the program has ended
   RunningProgram tree_;
   SharedTurn* turn_ = nullptr;
   std::string unsent_;
@@ -165,8 +169,12 @@ std::vector<KnownServer>& known_servers() {
 
 KnownServer& known_server(const CommandOptions& options) {
   std::vector<KnownServer>& servers = known_servers();
-  const std::string key =
-      fmt::format("{}\n{}\n{}", options.serve, options.shell, options.folder.string());
+  const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}",
+                                      options.serve,
+                                      options.shell,
+                                      options.folder.string(),
+                                      options.role,
+                                      options.network);
   const auto found = std::ranges::find(servers, key, &KnownServer::key);
   return found == servers.end() ? servers.emplace_back(KnownServer{key, nullptr}) : *found;
 }
@@ -228,10 +236,9 @@ Trajectory ask_poses(const CommandOptions& options,
   add_statements(report, metadata);
   report.notes.emplace_back("time: from request to answer");
   add_output(report, errors);
-  report.count(kProgramTime, answer.cost.cpu_seconds);
-  report.count(kProgramMemory, static_cast<double>(answer.cost.peak_memory));
+  add_costs(answer.cost.cpu_seconds, answer.cost.peak_memory);
   const std::chrono::duration<double> all = ServerClock::now() - begin;
-  report.phases.push_back({kExchangePhase, all.count() - answer.seconds});
+  program_costs().exchange_seconds += all.count() - answer.seconds;
   return out;
 }
 

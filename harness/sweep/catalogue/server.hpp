@@ -1,5 +1,8 @@
 /// Programs that stay running and answer one problem after another.
 ///
+/// The same line as a method and as a metric is two programs, because one has seen references. Each
+/// has a folder for temporary files of its own.
+///
 /// A program belongs to the thread that first used it, and to processes that are forked from it
 /// later: they inherit its streams, one at a time. A flag in shared memory is set while a request
 /// is unanswered. If it is still set at the next request, because the requesting process was

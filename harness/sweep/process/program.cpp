@@ -62,7 +62,8 @@ ProgramStart with_sandbox(ProgramStart start) {
     return start;
   }
   start.arguments = sandboxed_arguments(
-      *start.sandbox, {start.arguments, start.folder, start.readable, start.writable});
+      *start.sandbox,
+      {start.arguments, start.folder, start.readable, start.writable, start.network});
   return start;
 }
 
@@ -117,6 +118,7 @@ RunningProgram::RunningProgram(const ProgramStart& given) {
   call.input = start.serves ? input[1] : -1;
   call.output = output[1];
   call.errors = start.serves ? errors[1] : output[1];
+  if (start.shows_errors) call.errors = -1;
   try {
     process_.emplace(ProcessGroup::own, call);
   } catch (const std::system_error& error) {

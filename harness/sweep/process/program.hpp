@@ -24,7 +24,9 @@ struct ProgramStart {
   const SandboxOptions* sandbox = nullptr;                       ///< null: none
   std::vector<std::filesystem::path> readable;                   ///< what the sandbox shows
   std::filesystem::path writable;  ///< the only folder that it can write into
+  bool network = false;            ///< the sandbox leaves it the network of this machine
   bool serves = false;             ///< standard input and output are connected to this process
+  bool shows_errors = false;       ///< its standard error is that of this process
 };
 
 struct ProgramEnd {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <iterator>
 #include <map>
@@ -17,17 +18,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> base_arguments() {
+constexpr const char* kTemporary = "/tmp";
+
+/// Other folders in which processes leave files or answer; some may not exist.
+constexpr std::array<const char*, 6> kMeetingPlaces{
+    "/var/tmp", "/dev/mqueue", "/run/user", "/run/dbus", "/run/lock", "/run/docker.sock"};
+
+std::vector<std::string> base_arguments(bool network) {
   std::istringstream words(
       "bwrap --die-with-parent --new-session --unshare-pid --unshare-ipc --cap-drop ALL "
       "--ro-bind / / --dev-bind /dev /dev "
       "--tmpfs /dev/shm --proc /proc");
-  return {std::istream_iterator<std::string>(words), {}};
+  std::vector<std::string> out{std::istream_iterator<std::string>(words), {}};
+  if (!network) out.emplace_back("--unshare-net");
+  return out;
 }
 
-bool run_bubblewrap() {
+bool run_bubblewrap(bool network) {
   ProgramCall call;
-  call.arguments = base_arguments();
+  call.arguments = base_arguments(network);
   call.arguments.insert(call.arguments.end(), {"--", "true"});
   const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
   call.output = call.errors = null;
@@ -61,8 +70,64 @@ bool is_needed(const fs::path& folder) {
          std::ranges::any_of(needed, [&](const fs::path& each) { return contains(folder, each); });
 }
 
-enum class View { hidden_file, hidden_folder, readable, writable };
+enum class View { hidden_file, hidden_folder, own_temporary, readable, writable };
 using Views = std::map<fs::path, View>;  // a folder precedes what is in it
+
+/// Folders of packages in folders for temporary files, which a program needs: those in the
+/// variables by which interpreters find them, and the home folder.
+std::vector<fs::path> needed_in(const fs::path& temporary) {
+  std::vector<fs::path> out;
+  for (const char* const variable : {"PATH", "PYTHONPATH", "LD_LIBRARY_PATH", "HOME"}) {
+    const char* const value = std::getenv(variable);
+    std::istringstream folders(value == nullptr ? "" : value);
+    for (std::string each; std::getline(folders, each, ':');) {
+      if (!each.starts_with('/')) continue;
+      fs::path folder = resolved(each);
+      if (folder.filename() == "bin") folder = folder.parent_path();  // with lib beside it
+      std::error_code error;
+      const bool is_inside = folder != temporary && contains(temporary, folder);
+      if (is_inside && fs::is_directory(folder, error)) out.push_back(folder);
+    }
+  }
+  return out;
+}
+
+/// Hides what others leave in folders for temporary files.
+void hide_temporary(Views& views, const fs::path& writable) {
+  const View view = writable.empty() ? View::hidden_folder : View::own_temporary;
+  views[resolved(kTemporary)] = view;
+  for (const char* const place : kMeetingPlaces) {
+    std::error_code error;
+    if (fs::is_directory(place, error)) views.try_emplace(resolved(place), View::hidden_folder);
+    if (fs::is_socket(place, error)) views.try_emplace(resolved(place), View::hidden_file);
+  }
+  for (const fs::path& each : needed_in(resolved(kTemporary))) views[each] = View::readable;
+}
+
+bool is_of_sweep(const fs::path& entry) {
+  const std::string name = entry.filename().string();
+  return std::ranges::any_of(
+      std::array{
+          "loopbench-sweep-", "loopbench-exchange-", "loopbench-serve-", "loopbench-programs"},
+      [&](const char* prefix) { return name.starts_with(prefix); });
+}
+
+/// Shows a folder of the program. If it is one for temporary files, without the folders of sweeps.
+void show(Views& views, const fs::path& folder, const fs::path& writable) {
+  std::error_code error;
+  if (views.contains(folder) && views[folder] == View::own_temporary) {
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      if (!is_of_sweep(entry.path())) views.try_emplace(entry.path(), View::readable);
+    }
+    return;
+  }
+  views[folder] = View::readable;
+  if (writable.empty() || !contains(folder, writable)) return;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const bool is_hidden = is_of_sweep(entry.path()) && entry.is_directory(error);
+    if (is_hidden) views.try_emplace(entry.path(), View::hidden_folder);
+  }
+}
 
 /// Hides an existing path; of a file, its folder, too, unless programs need that.
 void hide(Views& views, const fs::path& path) {
@@ -70,7 +135,8 @@ void hide(Views& views, const fs::path& path) {
   const bool is_folder = fs::is_directory(path, error);
   if (!is_folder && !fs::exists(path, error)) return;
   const fs::path folder = is_folder ? path : path.parent_path();
-  if (!is_needed(folder)) views[folder] = View::hidden_folder;
+  const bool is_empty = views.contains(folder) && views[folder] == View::own_temporary;
+  if (!is_needed(folder) && !is_empty) views[folder] = View::hidden_folder;
   if (!is_folder) views[path] = View::hidden_file;
 }
 
@@ -87,7 +153,8 @@ std::vector<fs::path> program_files(const SandboxedProgram& program) {
 
 void show_own_folders(Views& views, const SandboxedProgram& program) {
   const Views hidden = views;
-  views[resolved(program.folder)] = View::readable;
+  const fs::path writable = program.writable.empty() ? "" : resolved(program.writable);
+  show(views, resolved(program.folder), writable);
   bool is_program = true;  // the first file that is not of the system
   for (const fs::path& name : program_files(program)) {
     std::error_code error;
@@ -95,7 +162,7 @@ void show_own_folders(Views& views, const SandboxedProgram& program) {
     if (fs::is_directory(file, error)) continue;
     if (!fs::is_regular_file(file, error)) continue;
     const fs::path folder = file.parent_path();
-    if (is_program || !hidden.contains(folder)) views[folder] = View::readable;
+    if (is_program || !hidden.contains(folder)) show(views, folder, writable);
     views[file] = View::readable;
     if (!is_needed(folder)) is_program = false;
   }
@@ -109,18 +176,23 @@ View view_of_folder(const Views& views, const fs::path& path) {
   return View::readable;
 }
 
-void append(std::vector<std::string>& out, const Views& views) {
+bool is_empty(View view) { return view == View::hidden_folder || view == View::own_temporary; }
+
+void append(std::vector<std::string>& out, const Views& views, const fs::path& own_temporary) {
   for (const auto& [path, view] : views) {
     switch (view) {
       case View::hidden_folder:
         out.insert(out.end(), {"--tmpfs", path.string()});
         break;
       case View::hidden_file:
-        if (view_of_folder(views, path) == View::hidden_folder) break;
+        if (is_empty(view_of_folder(views, path))) break;
         out.insert(out.end(), {"--ro-bind", "/dev/null", path.string()});
         break;
+      case View::own_temporary:
+        out.insert(out.end(), {"--bind", own_temporary.string(), path.string()});
+        break;
       case View::readable:
-        out.insert(out.end(), {"--ro-bind", path.string(), path.string()});
+        out.insert(out.end(), {"--ro-bind-try", path.string(), path.string()});
         break;
       case View::writable:
         out.insert(out.end(), {"--bind", path.string(), path.string()});
@@ -135,20 +207,40 @@ void append(std::vector<std::string>& out, const Views& views) {
 
 }  // namespace
 
-bool has_bubblewrap() {
-  static const bool out = run_bubblewrap();
+bool can_hide_network() {
+  static const bool out = run_bubblewrap(false);
   return out;
+}
+
+bool has_bubblewrap() {
+  static const bool out = can_hide_network() || run_bubblewrap(true);
+  return out;
+}
+
+std::string missing_protection(const SandboxOptions& options) {
+  if (!options.enabled || can_hide_network()) return "";
+  if (has_bubblewrap())
+    return "bubblewrap (bwrap) cannot hide the network here: programs can use it";
+  return "bubblewrap (bwrap) does not work here: programs can read all files, among them "
+         "references, "
+         "stores and files of other cells, and use the network";
 }
 
 std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
                                              const SandboxedProgram& program) {
   Views views;
+  hide_temporary(views, program.writable);
   for (const fs::path& path : options.hidden) hide(views, resolved(path));
   show_own_folders(views, program);
   for (const fs::path& path : program.readable) views[resolved(path)] = View::readable;
-  if (!program.writable.empty()) views[resolved(program.writable)] = View::writable;
-  std::vector<std::string> out = base_arguments();
-  append(out, views);
+  fs::path own_temporary;
+  if (!program.writable.empty()) {
+    own_temporary = resolved(program.writable) / ".tmp";
+    fs::create_directories(own_temporary);
+    views[resolved(program.writable)] = View::writable;
+  }
+  std::vector<std::string> out = base_arguments(program.network || !can_hide_network());
+  append(out, views, own_temporary);
   out.insert(out.end(), {"--chdir", resolved(program.folder).string(), "--"});
   out.insert(out.end(), program.arguments.begin(), program.arguments.end());
   return out;
@@ -162,13 +254,19 @@ SandboxOptions& program_sandbox() {
 bool is_sandboxed() { return program_sandbox().enabled && has_bubblewrap(); }
 
 std::string hidden_note(const SandboxOptions& options) {
-  std::string out;
-  if (!options.enabled || !has_bubblewrap()) return out;
+  constexpr std::size_t kMost = 6;
+  if (!options.enabled || !has_bubblewrap()) return "";
+  std::vector<std::string> names;
   for (const fs::path& path : options.hidden) {
     std::error_code error;
-    if (!fs::exists(path, error)) continue;
-    out += (out.empty() ? "; the sandbox hides " : ", ") + path.string();
+    const std::string name = path.lexically_normal().string();
+    if (fs::exists(path, error) && std::ranges::count(names, name) == 0) names.push_back(name);
   }
+  std::string out;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+    out += (out.empty() ? "; the sandbox hides " : ", ") + names[i];
+  }
+  if (names.size() > kMost) out += " and " + std::to_string(names.size() - kMost) + " more";
   return out.empty() ? out : out + " from it";
 }
 

@@ -1,12 +1,14 @@
-/// Restricts what external programs can read, by bubblewrap. Results do not depend on it.
+/// A private world for each external program, by bubblewrap. Results do not depend on it.
 ///
 /// A program sees the file system read-only, with folders of data, results and references mounted
 /// empty, except what it was given, its own folder and its folder for temporary files. Within
-/// these, hidden files cannot be opened. It has PID and IPC namespaces of its own, so nothing else
-/// can be signalled, and all of it ends with it.
+/// these, hidden files cannot be opened. /tmp is its own, the other folders for temporary files are
+/// empty, so it sees nothing of other cells. It has PID and IPC namespaces of its own, so nothing
+/// else can be signalled, and all of it ends with it; and a network of its own, without any other
+/// machine, unless its config says `network: true`.
 ///
-/// Not protected: hidden files under other names (hard links). Methods in C++ are not restricted:
-/// their process contains the reference that the cell is evaluated against.
+/// Not protected: hidden files under other names (hard links, copies). Methods in C++ are not
+/// restricted: their process contains the reference that the cell is evaluated against.
 #pragma once
 
 #include <filesystem>
@@ -25,15 +27,24 @@ struct SandboxedProgram {
   std::vector<std::string> arguments;
   std::filesystem::path folder;                 ///< working directory; readable
   std::vector<std::filesystem::path> readable;  ///< what it was given, apart from its arguments
-  std::filesystem::path writable;               ///< folder for temporary files; may be empty
+  std::filesystem::path writable;  ///< folder for temporary files, with its /tmp; may be empty
+  bool network = false;            ///< that of this machine instead of its own
 };
 
 /// Whether bubblewrap can start programs here. The first call starts one; later ones, also in
 /// forked processes, return the same.
 bool has_bubblewrap();
 
+/// Whether it can also give programs a network of their own.
+bool can_hide_network();
+
+/// What programs can reach here although they should not; "" if there is nothing. `options`: those
+/// of the sweep.
+std::string missing_protection(const SandboxOptions& options);
+
 /// The command line that runs the program under bubblewrap. Existing files in its command line are
 /// readable, with their folders unless these are hidden; of the program itself, its folder always.
+/// Creates a folder in `writable` for its /tmp.
 std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
                                              const SandboxedProgram& program);
 

@@ -21,13 +21,18 @@ std::string hashed(const Params& params) {
   return fields.hashed();
 }
 
+std::string version_of_program(const Choice& program, const Sweep& sweep) {
+  return command_version(command_options(program.options, sweep),
+                         {sweep.limits.seconds, sweep.limits.memory});
+}
+
 std::string of_method(const MethodChoice& choice, const Sweep& sweep, const Catalogue& catalogue) {
   Fields fields;
   for (const Choice& stage : choice.stages) {
     fields.add(stage.name)
         .add(hashed(in_full(find_method(catalogue, stage.name).options, stage.options)))
         .add(plugin_version(catalogue, "method", stage.name));
-    if (is_program(stage)) fields.add(command_version(command_options(stage.options, sweep)));
+    if (is_program(stage)) fields.add(version_of_program(stage, sweep));
   }
   return fields.hashed();
 }
@@ -44,11 +49,10 @@ std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
         .add(hashed(
             in_full(find_metric(catalogue, metric.metric.name).options, metric.metric.options)))
         .add(plugin_version(catalogue, "metric", metric.metric.name));
-    if (is_program(metric.metric)) {
-      fields.add(command_version(command_options(metric.metric.options, sweep)));
-    }
+    if (is_program(metric.metric)) fields.add(version_of_program(metric.metric, sweep));
   }
   if (uses_programs(sweep) && !is_sandboxed()) fields.add("no sandbox");
+  if (uses_programs(sweep) && is_sandboxed() && !can_hide_network()) fields.add("open network");
   for (const metrics::Times times : sweep.times) fields.add(to_text(times));
   fields.add(to_text(sweep.min_coverage)).add(std::to_string(sweep.timing));
   if (sweep.precision > 0.0) fields.add(to_text(sweep.precision));
@@ -128,7 +132,12 @@ std::vector<InputFile> CellKeys::current_inputs(const Cell& cell,
         break;
       }
     }
-    if (std::filesystem::exists(now)) input = hashed_inputs({{now, input.option}}).front();
+    if (!std::filesystem::exists(now)) continue;
+    try {
+      input = hashed_inputs({{now, input.option}}).front();
+    } catch (const InputError& error) {
+      throw InputError(with_place(error.what(), sweep_.datasets[cell.dataset], sweep_));
+    }
   }
   return inputs;
 }

@@ -161,7 +161,9 @@ class IsolatedSweep {
       case Failure::Kind::missing_part:
         throw MissingPart(failure.why);
       case Failure::Kind::input_error:
-        if (!has_foreign_code(context_.catalogue, choice.dataset)) throw InputError(failure.why);
+        if (!has_foreign_code(context_.catalogue, choice.dataset)) {
+          throw InputError(with_place(failure.why, choice, context_.sweep));
+        }
         failure.why = stored_reason("dataset '" + choice.label + "': " + failure.why);
         break;
       case Failure::Kind::cell:
@@ -285,9 +287,8 @@ void run_isolated(WorkerContext context,
                   const StopRequests& stop,
                   const std::function<void(const CellResult&)>& finished) {
   const std::unique_ptr<const ScratchFolder> scratch = scratch_for_programs(context.sweep);
-  if (scratch && context.sandbox.enabled && !has_bubblewrap()) {
-    print_error("loopbench: bubblewrap (bwrap) does not work here: programs can read all files\n");
-  }
+  const std::string missing = scratch ? missing_protection(context.sandbox) : "";
+  if (!missing.empty()) print_error("loopbench: {}\n", missing);
   context.is_alone = context.sweep.serial || jobs == 1;
   IsolatedSweep(context, jobs, stop, finished).run();
 }

@@ -48,16 +48,11 @@ std::int64_t peak_memory() {
 }
 
 /// What the harness has used while a program ran is not the program's.
-void use_costs_of_program(CellResult& result, const methods::Report& report) {
-  const auto count = [&](const char* name) {
-    const auto found = std::ranges::find(report.counts, name, &methods::Count::name);
-    return found == report.counts.end() ? std::nullopt : std::optional(found->value);
-  };
-  if (const auto seconds = count(kProgramTime)) result.cpu_seconds.back() = *seconds;
-  if (const auto memory = count(kProgramMemory)) {
-    result.peak_memory = static_cast<std::int64_t>(*memory);
-    result.added_memory.reset();
-  }
+void use_costs_of_program(CellResult& result, const ProgramCosts& costs) {
+  if (!costs.is_measured) return;
+  result.cpu_seconds.back() = costs.cpu_seconds;
+  result.peak_memory = costs.peak_memory;
+  result.added_memory.reset();
 }
 
 /// A run that is shorter [s] mostly pays for the first access of a new process to its memory.
@@ -66,19 +61,22 @@ constexpr double kShortRun = 2e-3;
 struct TimedRun {
   std::unique_ptr<const Curve> curve;
   methods::Report report;
+  ProgramCosts programs;
   double seconds = 0.0;
   double cpu_seconds = 0.0;
 };
 
 TimedRun timed_run(const methods::Estimator& method, const Problem& problem) {
   TimedRun out;
+  program_costs() = {};
   const double cpu_begin = process_cpu_seconds();
   const auto begin = Clock::now();
   out.curve = method.estimate(problem, out.report);
   const std::chrono::duration<double> took = Clock::now() - begin;
-  out.seconds =
-      std::max(0.0, took.count() - phase_seconds(out.report, kExchangePhase).value_or(0.0));
   out.cpu_seconds = process_cpu_seconds() - cpu_begin;
+  out.programs = program_costs();
+  out.seconds = std::max(0.0, took.count() - out.programs.exchange_seconds);
+  settle_costs(out.report);
   return out;
 }
 
@@ -122,7 +120,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     last = {};  // so that the destruction of its curve is not timed with the next run
     last = timed_run(method, problem);
     check_report(last.report);
-    const bool is_first = run == 0 && !phase_seconds(last.report, kExchangePhase);
+    const bool is_first = run == 0 && !last.programs.is_measured;
     if (is_first && last.seconds < kShortRun) {
       const TimedRun warm = timed_run(method, problem);
       results.insert(hash_of_curve(warm.curve.get(), problem));
@@ -137,14 +135,14 @@ std::unique_ptr<const Curve> timed(CellResult& result,
       result.peak_memory = peak_memory();
       result.added_memory = *result.peak_memory - before;
     }
-    use_costs_of_program(result, last.report);
+    use_costs_of_program(result, last.programs);
     if (sweep.timing > 1 || warm_runs > 0) results.insert(hash_of_curve(last.curve.get(), problem));
   }
   if (const auto now = seconds_without_processor(); waited && now) {
     const std::chrono::duration<double> took = Clock::now() - begin;
     result.waiting = std::clamp((*now - *waited) / took.count(), 0.0, 1.0);
   }
-  result.worker.stated = phase_seconds(last.report, kWallPhase).has_value();
+  result.worker.stated = last.programs.stated_run.has_value();
   result.report = std::move(last.report);
   if (results.size() > 1) {
     result.notes.push_back(

@@ -1,0 +1,154 @@
+"""The private world of programs: none finds the reference, files of other cells, stores or the network. Arguments:
+loopbench and the folder of tests/external/programs. Needs bubblewrap."""
+
+import json
+import os
+import shutil
+import socket
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+
+PROGRAM, PROGRAMS = (os.path.abspath(word) for word in sys.argv[1:3])
+SECRET = "7.7712345"
+NAME = f"loopbench-test-{os.getpid()}"
+
+
+class Server:
+    """Tells the secret to everybody who asks, over TCP and an abstract socket."""
+
+    def __init__(self):
+        self.sockets = [socket.create_server(("127.0.0.1", 0)), socket.socket(socket.AF_UNIX)]
+        self.port = self.sockets[0].getsockname()[1]
+        self.sockets[1].bind("\0" + NAME)
+        self.sockets[1].listen()
+        for each in self.sockets:
+            threading.Thread(target=self.tell, args=(each,), daemon=True).start()
+
+    def tell(self, own):
+        while True:
+            try:
+                peer, _ = own.accept()
+            except OSError:
+                return
+            with peer:
+                peer.sendall(SECRET.encode())
+
+
+SERVER = Server()
+
+
+class PrivatePrograms(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        for name in ("tmp", "data", "other", "cache", "prog"):
+            (self.folder / name).mkdir()
+        rows = [f"{t} {t % 7} {t % 5} {{}} 0 0 0 1\n" for t in range(40)]
+        for folder in ("data", "other"):
+            self.write(f"{folder}/estimate.txt", "".join(row.format(1) for row in rows))
+            self.write(f"{folder}/reference.txt", "".join(row.format(SECRET) for row in rows))
+        for name in ("spy.py",):
+            shutil.copy(Path(PROGRAMS) / name, self.folder / "prog")
+        self.environment = os.environ | {"TMPDIR": str(self.folder / "tmp"), "LOOPBENCH_CACHE": str(self.folder / "cache")}
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def dataset(self, folder):
+        return {"dataset": "trajectory", "label": folder, "estimate": f"{folder}/estimate.txt",
+                "reference": f"{folder}/reference.txt"}
+
+    def sweep(self, methods, metrics=("ate",), options="", code=0, out="out"):
+        self.write("c.yaml", json.dumps({"datasets": [self.dataset("data"), self.dataset("other")], "methods": methods,
+                                         "metrics": list(metrics), "times": "keyframes", "limits": {"seconds": 60}}))
+        done = subprocess.run([PROGRAM, "run", "c.yaml", "--out", out, *options.split()], cwd=self.folder,
+                              env=self.environment, capture_output=True, text=True)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stderr
+
+    def select(self, query):
+        database = sqlite3.connect(self.folder / "out/results.sqlite")
+        rows = [row[0] for row in database.execute(query).fetchall()]
+        database.close()
+        return rows
+
+    def outputs(self, method):
+        return self.select(f"SELECT text FROM note JOIN cell ON id = cell WHERE method = '{method}' AND "
+                           "text LIKE 'output: %' AND position NOT NULL")
+
+    def spy(self, **more):
+        run = f"python3 prog/spy.py {{problem}} {{result}} {SECRET[0]} {SECRET[1:]} {self.folder} {SERVER.port} {NAME}"
+        return {"method": "command", "label": "spy", "run": run, **more}
+
+    def test_no_way_leads_to_the_reference(self):
+        slow = "sh -c 'sleep 1; printf %s \"$0\" >\"$2\"' '{\"scores\": [{\"name\": \"n\", \"unit\": \"1\", \"value\": 1}]}' {evaluation} {result}"
+        self.sweep(["raw"], options="--save-trajectories", out="earlier")
+        self.sweep(["raw"], options="--save-trajectories")
+        for option in ("--fresh", "--retry all", "--data data --retry all"):
+            self.sweep([self.spy(), "raw", "uniform"], ["ate", {"metric": "command", "label": "slow", "run": slow}],
+                       f"--jobs 2 --save-trajectories {option}")
+            said = self.outputs("spy")
+            self.assertEqual(len(said), 2)
+            for each in said:
+                self.assertRegex(each, "tried [0-9]+ ways; found: nothing$")
+            self.assertGreaterEqual(int(said[0].split()[2]), 40)
+            self.assertEqual(list((self.folder / "tmp").iterdir()), [])
+        self.assertEqual(self.select("SELECT DISTINCT value FROM provenance WHERE key = 'network'"), ["none"])
+
+    def test_a_program_that_serves_sees_nothing_either(self):
+        self.write("prog/serves.sh", f"python3 prog/spy.py /nowhere /nowhere {SECRET[0]} {SECRET[1:]} {self.folder} {SERVER.port} "
+                                     f"{NAME} >&2 2>/dev/null\nexit 3\n")
+        self.sweep([{"method": "command", "label": "spy", "serve": "sh prog/serves.sh"}], code=1)
+        for why in self.select("SELECT why FROM cell WHERE position NOT NULL"):
+            self.assertIn("found: nothing", why)
+
+    def test_the_network_is_there_if_the_config_says_so(self):
+        self.write("prog/asks.py", "import socket, sys, shutil\n"
+                                   f"peer = socket.create_connection(('127.0.0.1', {SERVER.port}), 2)\n"
+                                   "print('heard', peer.recv(100))\nshutil.copy(sys.argv[1] + '/keyframes.txt', sys.argv[2])\n")
+        entry = {"method": "command", "label": "asks", "run": "python3 prog/asks.py {problem} {result}"}
+        self.sweep([entry], code=1)
+        self.sweep([{**entry, "network": True}])
+        self.assertIn(SECRET, self.outputs("asks")[0])
+        self.assertIn("method asks\n", self.select("SELECT DISTINCT value FROM provenance WHERE key = 'network'"))
+
+    def test_tmp_is_writable_and_its_own(self):
+        self.write("prog/own.sh", "ls -A /tmp; echo x >/tmp/x && cat /tmp/x && cp $1/keyframes.txt $2\n")
+        self.sweep([{"method": "command", "label": "own", "run": "sh prog/own.sh {problem} {result}"}])
+        for each in self.outputs("own"):
+            self.assertTrue(each.endswith(" x"), each)
+            self.assertFalse(Path("/tmp/x").exists())
+
+    def test_a_program_is_two_processes_as_a_method_and_as_a_metric(self):
+        self.write("prog/both.py", """import sys, struct, json, os
+i, o, kinds = sys.stdin.buffer, sys.stdout.buffer, set()
+while len(h := i.read(32)) == 32:
+    number, text, data = struct.unpack('<QQQ', h[8:])
+    t, d = json.loads(i.read(text)), i.read(data)
+    kinds.add(t.get('kind', 'method'))
+    print('asked as', *sorted(kinds), file=sys.stderr, flush=True)
+    if t.get('kind') == 'metric':
+        a, out = {'scores': [{'name': 'kinds', 'unit': '1', 'value': len(kinds)}]}, b''
+    else:
+        rows = t['arrays'][0][1]
+        a, out = {'poses': rows, 'counts': {'kinds': len(kinds)}}, d[:rows * 64]
+    a = json.dumps(a).encode()
+    o.write(b'LBEXCH01' + struct.pack('<QQQ', number, len(a), len(out)) + a + out)
+    o.flush()
+""")
+        serve = "python3 prog/both.py"
+        self.sweep(["raw", "uniform", {"method": "command", "label": "both", "serve": serve}],
+                   ["ate", {"metric": "command", "label": "both", "serve": serve}], "--jobs 1")
+        self.assertEqual(set(self.select("SELECT value FROM count WHERE name = 'kinds'")), {1.0})
+        self.assertEqual(set(self.select("SELECT rmse FROM score WHERE label = 'both'")), {1.0})
+
+
+if subprocess.run(["bwrap", "--ro-bind", "/", "/", "--unshare-all", "true"], capture_output=True).returncode:
+    sys.exit(77)
+unittest.main(argv=sys.argv[:1])
