@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"
@@ -34,19 +34,48 @@ struct SubmitArguments {
 std::string header_text(const std::string& given) {
   const fs::path file = given.empty() ? settings_file("slurm.sh") : fs::path(given);
   if (given.empty() && !fs::exists(file)) return "";
+  constexpr std::streamsize kMost = 1 << 20;  // [bytes]
   std::ifstream in(file);
-  if (!in) throw InputError(file.string() + ": cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::string out(static_cast<std::size_t>(kMost) + 1, '\0');
+  if (!in || !in.read(out.data(), kMost + 1).eof()) {
+    if (in && in.gcount() > kMost) {
+      throw InputError(file.string() + ": has more than 1 MiB, expected lines for a script");
+    }
+    throw InputError(file.string() + ": cannot be read");
+  }
+  out.resize(static_cast<std::size_t>(in.gcount()));
+  return out;
 }
 
-ProgramEnd run_program(const std::vector<std::string>& words, std::string& output) {
+/// `shows_errors`: its standard error is that of this process instead of a part of `output`.
+ProgramEnd run_program(const std::vector<std::string>& words,
+                       std::string& output,
+                       bool shows_errors = false) {
   ProgramStart start;
   start.arguments = words;
   start.folder = ".";
+  start.shows_errors = shows_errors;
   for (const char* name : {"LOOPBENCH_DATA", "LOOPBENCH_CACHE"}) {  // hidden from other programs
     if (const char* value = std::getenv(name)) start.environment.emplace_back(name, value);
   }
   return RunningProgram(start).wait(output);
+}
+
+/// Throws InputError for an option of `run` that the script sets itself.
+void reject_own_options(const std::vector<std::string>& options) {
+  const auto is = [](std::string word, const std::string& name) {
+    if (word.starts_with("--")) std::ranges::replace(word, '_', '-');
+    if (name.size() == 2) return word.starts_with(name);  // also -j3
+    return word == name || word.starts_with(name + "=");
+  };
+  for (const std::string& word : options) {
+    for (const char* const own : {"--shard", "--jobs", "-j", "--out", "-o", "--dry-run"}) {
+      if (!is(word, own)) continue;
+      throw InputError("-- " + word + ": submit sets " + own +
+                       " itself; use --array for shards, --out of submit for the folder, and "
+                       "#SBATCH --cpus-per-task in the header for workers");
+    }
+  }
 }
 
 /// What `run` rejects is rejected now, and not by every task.
@@ -63,21 +92,32 @@ void check_options(const SlurmSweep& sweep) {
   throw InputError(errors.starts_with(prefix) ? errors.substr(prefix.size()) : errors);
 }
 
-/// Submits a script and returns Slurm's number of the job.
+/// The number in the last line of `sbatch --parsable`: NUMBER or NUMBER;CLUSTER.
+std::string job_number(std::string output) {
+  while (output.ends_with('\n')) output.pop_back();
+  const std::string last = output.substr(output.find_last_of('\n') + 1);
+  const std::string number = last.substr(0, last.find(';'));
+  if (!number.empty() && number.find_first_not_of("0123456789") == std::string::npos) return number;
+  throw InputError("sbatch: printed '" + last +
+                   "', expected the number of the job, which may run; see squeue");
+}
+
+/// Submits a script and returns Slurm's number of the job. Warnings of sbatch are passed on.
 std::string submitted(const fs::path& script, const std::string& after) {
   std::vector<std::string> words{
       "sbatch", "--parsable", "--chdir=" + script.parent_path().string()};
   if (!after.empty()) words.push_back("--dependency=afterany:" + after);
   words.push_back(script.string());
   std::string output;
-  const ProgramEnd end = run_program(words, output);
+  const ProgramEnd end = run_program(words, output, true);
   if (end.start_error != 0) {
     throw InputError(
         "sbatch: cannot be started; without Slurm, run the scripts of `submit --print`");
   }
-  const std::string number = output.substr(0, output.find_first_of(";\n"));
-  if (end.exit_code != 0) throw InputError("sbatch: did not accept the job: " + output);
-  return number;
+  if (end.exit_code != 0) {
+    throw InputError("sbatch: did not accept the job: it " + text(end) + "; its reason is above");
+  }
+  return job_number(output);
 }
 
 int submit(const SubmitArguments& arguments) {
@@ -90,6 +130,7 @@ int submit(const SubmitArguments& arguments) {
   sweep.shards = arguments.array;
   sweep.options = arguments.options;
   sweep.header = header_text(arguments.header);
+  reject_own_options(sweep.options);
   check_options(sweep);
   const std::string shards = slurm_shard_script(sweep);
   const std::string merge = slurm_merge_script(sweep);
@@ -97,6 +138,8 @@ int submit(const SubmitArguments& arguments) {
     fmt::print("{}\n{}", shards, merge);
     return kExitOk;
   }
+  require_writable({{"--out", sweep.out / "shards.sh", FileKind::job_script, true},
+                    {"--out", sweep.out / "merge.sh", FileKind::job_script, true}});
   fs::create_directories(sweep.out / "logs");
   write_result(sweep.out / "shards.sh", shards);
   write_result(sweep.out / "merge.sh", merge);
@@ -129,14 +172,16 @@ void add_submit(CLI::App& app, int& exit_code) {
   add(command, "--array", a.array, "Number of shards, one per task")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  add(command,
-      "--header FILE",
-      a.header,
-      "File with lines for both scripts: #SBATCH options (time, memory, partition), then commands "
-      "before the run (default: ~/.config/loopbench/slurm.sh)");
+  reads(command,
+        add(command,
+            "--header FILE",
+            a.header,
+            "File with lines for both scripts: #SBATCH options (time, memory, partition), then "
+            "commands before the run (default: ~/.config/loopbench/slurm.sh)"));
   command.add_flag("--print", a.print, "Print the scripts without submitting them");
   add(command, "--out DIR", a.out, "Output folder (default: results/CONFIG)");
   add(command, "options", a.options, "After --: options of `run`, for example --only");
+  declare_force(command);
   command.callback([arguments, &exit_code] { exit_code = submit(*arguments); });
 }
 
