@@ -38,6 +38,44 @@ class Misbehaving(unittest.TestCase):
             self.assertIn(why or "", rows[name]["cell_why"])
 
 
+class Arrays(unittest.TestCase):
+    """Numbers that are not there: NaN from functions, and masked rows."""
+
+    def setUp(self):
+        import loopbench
+
+        self.problem, self.reference = loopbench.load("simulated", path="room", keyframes=40)
+
+    def masked(self, rows):
+        return np.ma.masked_array(rows, mask=np.arange(len(rows))[:, None] % 8 + np.zeros(rows.shape[1]) == 7)
+
+    def test_results_of_functions_are_finite(self):
+        import loopbench
+
+        def nan(problem):
+            poses = problem.poses.copy()
+            poses[3, 0] = np.nan
+            return poses
+
+        with self.assertRaisesRegex(ValueError, "row 3: is not finite"):
+            loopbench.correct(self.problem, nan)
+        with self.assertRaisesRegex(ValueError, "row 7: is masked"):
+            loopbench.correct(self.problem, lambda problem: self.masked(problem.poses))
+
+    def test_masked_rows_are_rejected(self):
+        import loopbench
+
+        poses = self.masked(self.problem.keyframes)
+        calls = [lambda: loopbench.evaluate(self.reference, poses), lambda: loopbench.evaluate(poses, self.reference),
+                 lambda: loopbench.align(poses, self.problem.keyframes), lambda: loopbench.problem_of(poses),
+                 lambda: loopbench.associate(self.reference, poses)]
+        for call in calls:
+            with self.assertRaisesRegex(ValueError, "row 7: is masked"):
+                call()
+        nothing_masked = np.ma.masked_array(self.problem.keyframes, mask=False)
+        self.assertEqual(loopbench.evaluate(self.reference, nothing_masked)["pairs"], 40)
+
+
 class Hostile(unittest.TestCase):
     """Python methods that hang, grow, flood, leave processes, or return other stamps."""
 

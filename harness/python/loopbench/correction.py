@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _core
 from .interruptible import interruptible
-from .problem import Array, Edges, Problem
+from .problem import Array, Edges, Problem, check_finite, unmasked
 from .serving import Method, call
 
 
@@ -80,10 +80,13 @@ def problem_of(
     for row, (_, _, pose) in enumerate(closures):
         if np.shape(pose) != (7,):
             raise ValueError(f"closures: row {row}: found a pose of shape {np.shape(pose)}, expected (7,)")
-    rows = [np.r_[begin, end, np.asarray(pose), 1.0, information] for begin, end, pose in closures]
+    rows = [
+        np.r_[begin, end, unmasked(pose, "closures"), 1.0, information]
+        for begin, end, pose in closures
+    ]
     rows.sort(key=lambda row: (row[1], row[0]))
-    poses = np.ascontiguousarray(keyframes, dtype=float)
-    between = np.reshape(np.asarray(frames, dtype=float), (-1, 8))
+    poses = unmasked(keyframes, "keyframes")
+    between = np.reshape(unmasked(frames, "frames"), (-1, 8))
     edges = np.reshape(rows, (-1, 46))
     odometry = Edges.from_rows(_core.odometry(poses))
     problem = Problem(poses, between, odometry, Edges.from_rows(edges), bool(planar))
@@ -102,7 +105,8 @@ def correct(
     "corrector + smoother"; or a function as for `serve`, which runs in this process. `at` are the
     stamps of the poses, by default those of the keyframes; a function chooses its own. The report
     is that of `correct --json`, or what the function returned. Raises ValueError if the method is
-    unknown or not applicable; exceptions of a function are not caught.
+    unknown or not applicable, or returns numbers that are not finite; exceptions of a function are
+    not caught.
 
     >>> problem, reference = load("simulated", path="room", keyframes=40)
     >>> poses, report = correct(problem, "pose_graph")
@@ -113,11 +117,12 @@ def correct(
     >>> correct(problem, lambda problem: problem.poses)[0].shape
     (40, 8)
     """
-    stamps = np.asarray(at, dtype=float).ravel()
+    stamps = unmasked(at, "at").ravel()
     if not isinstance(method, str):
         if len(stamps):
             raise TypeError("stamps are chosen by the function, expected no `at`")
         report, poses = call(method, problem)
+        check_finite(poses, "the method's result")
         return poses, report
     first, last = (min(problem.stamps, default=0.0), max(problem.stamps, default=0.0))
     for stamp in stamps:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _core
 from .interruptible import interruptible
-from .problem import Array
+from .problem import Array, unmasked
 
 #: A path, or (n, 8) rows: stamp x y z qx qy qz qw.
 Trajectory = Union[str, "os.PathLike[str]", npt.ArrayLike]
@@ -38,7 +38,7 @@ class Alignment(NamedTuple):
 
     def apply(self, poses: npt.ArrayLike) -> Array:
         """(n, 8) other poses of the estimate's world, such as its keyframes, aligned likewise."""
-        out = np.array(poses, float)
+        out = unmasked(poses, "poses").copy()
         q, v, s = self.transform[3:], out[:, 4:7].copy(), out[:, 7:].copy()
         out[:, 1:4] = self.scale * out[:, 1:4] @ self.rotation.T + self.transform[:3]
         out[:, 4:7] = q[3] * v + s * q[:3] + np.cross(q[:3], v)
@@ -60,10 +60,6 @@ def _arguments(
     if align:
         out.set(f"align={align}", "align")
     return out
-
-
-def _rows(poses: npt.ArrayLike) -> Array:
-    return np.ascontiguousarray(poses, dtype=float)
 
 
 def read_trajectory(
@@ -177,7 +173,10 @@ def evaluate(
         raise TypeError("found a path and an array, expected two paths or two arrays")
     else:
         text, rows, stated = interruptible(
-            _core.evaluate_arrays, arguments, _rows(reference), _rows(estimate)
+            _core.evaluate_arrays,
+            arguments,
+            unmasked(reference, "reference"),
+            unmasked(estimate, "estimate"),
         )
     result: dict[str, Any] = json.loads(text)[0]
     if errors:
@@ -215,7 +214,8 @@ def associate(
     (array([0., 3., 6.]), array([0.01, 3.01, 6.01]))
     """
     arguments = _arguments(protocol, "", settings)
-    return _core.associate(arguments, _rows(reference), _rows(estimate))
+    rows = unmasked(reference, "reference"), unmasked(estimate, "estimate")
+    return _core.associate(arguments, *rows)
 
 
 def align(
@@ -231,7 +231,8 @@ def align(
     >>> round(aligned.scale, 9), bool(np.allclose(aligned.poses, larger))
     (2.0, True)
     """
-    *found, transform = _core.align(_rows(reference), _rows(estimate), how, first)
+    rows = unmasked(reference, "reference"), unmasked(estimate, "estimate")
+    *found, transform = _core.align(*rows, how, first)
     return Alignment(*found, transform[0, 1:])
 
 
@@ -248,5 +249,6 @@ def tracking_gaps(
     >>> tracking_gaps(reference, stamps)
     array([[0.3, 9. ]])
     """
-    found = _core.tracking_gaps(_rows(reference), list(map(float, np.ravel(stamps))), longest_pause)
+    tracked = unmasked(stamps, "stamps").ravel().tolist()
+    found = _core.tracking_gaps(unmasked(reference, "reference"), tracked, longest_pause)
     return np.array(found).reshape(-1, 2)

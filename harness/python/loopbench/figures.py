@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Mapping
 import numpy as np
 import numpy.typing as npt
 
+from .problem import unmasked
 from .sweeps import Row, rows
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def plot_trajectories(
     first, second = ("xyz".index(each) + 1 for each in plane)
     axes = _axes(axes, f"{plane[0]} [m]", f"{plane[1]} [m]")
     for label, trajectory in trajectories.items():
-        poses = np.asarray(trajectory, dtype=float)
+        poses = unmasked(trajectory, label)
         axes.plot(poses[:, first], poses[:, second], label=label, linewidth=1)
     axes.set_aspect("equal", adjustable="datalim")
     axes.legend()

@@ -16,7 +16,22 @@ class Declined(Exception):
     """Raised by a method that is not applicable to a problem; the text is the reason."""
 
 
-def _check_finite(rows: Array, name: str) -> None:
+def unmasked(values: Any, name: str) -> Array:
+    """The values as an array. Raises ValueError for masked ones: numpy would return what is below the mask.
+
+    >>> unmasked(np.ma.masked_array(np.zeros((2, 8)), mask=[[0] * 8, [1] * 8]), "estimate")
+    Traceback (most recent call last):
+    ValueError: estimate: row 1: is masked, expected only rows without masked values
+    """
+    if np.ma.is_masked(values):
+        row = np.argwhere(np.ma.getmaskarray(values))[0][0]
+        raise ValueError(f"{name}: row {row}: is masked, expected only rows without masked values")
+    return np.ascontiguousarray(values, dtype=float)
+
+
+def check_finite(rows: Any, name: str) -> None:
+    """Raises ValueError for a row with a number that is not finite, or masked."""
+    rows = unmasked(rows, name)
     for row in np.flatnonzero(~np.isfinite(rows).all(axis=1)):
         raise ValueError(f"{name}: row {row}: is not finite")
 
@@ -46,7 +61,9 @@ class Edges:
                 f"{name}: row {row}: found keyframes {self.begin[row]} and {self.end[row]}, "
                 f"expected two different ones of 0 to {keyframes - 1}"
             )
-        _check_finite(self.to_rows(), name)
+        for part in (self.begin, self.end, self.poses, self.scale, self.information):
+            unmasked(part, name)
+        check_finite(self.to_rows(), name)
 
     @staticmethod
     def from_rows(rows: Array) -> "Edges":
@@ -94,8 +111,8 @@ class Problem:
 
     def check(self) -> None:
         """Raises ValueError for numbers that are not finite and indices out of range."""
-        _check_finite(self.keyframes, "keyframes")
-        _check_finite(self.frames, "frames")
+        check_finite(self.keyframes, "keyframes")
+        check_finite(self.frames, "frames")
         self.odometry.check(len(self.keyframes), "odometry")
         self.closures.check(len(self.keyframes), "closures")
 
@@ -183,7 +200,7 @@ def stamped(stamps: Array, poses: Any) -> Array:
     >>> stamped(np.array([5.0]), [[1, 0, 0, 0, 0, 0, 1]])
     array([[5., 1., 0., 0., 0., 0., 0., 1.]])
     """
-    out = np.ascontiguousarray(poses, dtype="<f8")
+    out = np.ascontiguousarray(unmasked(poses, "the method's result"), dtype="<f8")
     if out.ndim == 2 and out.shape[1] == 7 and len(out) == len(stamps):
         out = np.column_stack([stamps, out])
     if out.ndim != 2 or out.shape[1] != 8:
