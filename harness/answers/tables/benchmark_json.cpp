@@ -29,6 +29,7 @@ JsonEntry benchmark_of(const CellRow& cell, std::size_t repetitions) {
   out["real_time"] = 1e6 * cell.seconds;
   out["cpu_time"] = 1e6 * cell.cpu_seconds.value_or(0.0);
   out["time_unit"] = "us";
+  if (cell.is_stated()) out["real_time_is_stated"] = true;
   if (cell.cpu_seconds_min) out["cpu_time_min"] = 1e6 * *cell.cpu_seconds_min;
   if (cell.cpu_variation) out["cpu_time_cv"] = *cell.cpu_variation;
   if (cell.peak_memory) out["peak_memory"] = *cell.peak_memory;

@@ -91,7 +91,7 @@ std::string terminal(const Table& table, const TerminalStyle& style = {});
 std::string latex(const Table& table, bool wide = false);
 
 /// The means, one line each (RFC 4180), in full precision, or the texts of cells without one;
-/// `mark` is best or empty.
+/// `mark` has the words best and stated (a time that programs state), or is empty.
 std::string csv(const std::vector<Table>& tables);
 
 /// Array of {title, row_names, columns, rows, notes, above, cells[row][column] {value, records,

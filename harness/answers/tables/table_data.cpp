@@ -7,6 +7,16 @@
 #include "harness/answers/tables/table.hpp"
 
 namespace loopbench::harness {
+namespace {
+
+/// "best", "stated", "best stated" or empty.
+std::string mark_of(const TableCell& cell) {
+  std::string out = cell.is_best ? "best" : "";
+  if (cell.is_stated) out += out.empty() ? "stated" : " stated";
+  return out;
+}
+
+}  // namespace
 
 std::string csv(const std::vector<Table>& tables) {
   std::string out = "table,row,column,value,records,averaged,status,mark\n";
@@ -25,7 +35,7 @@ std::string csv(const std::vector<Table>& tables) {
                            cell.records,
                            cell.averaged,
                            value.empty() ? cell.status : "ok",
-                           cell.is_best ? "best" : "");
+                           mark_of(cell));
       }
     }
   }
@@ -51,7 +61,7 @@ std::string json(const std::vector<Table>& tables) {
                          {"deviation", or_null(cell.deviation)},
                          {"possible", std::max(cell.records, cell.possible)},
                          {"status", value.is_null() ? cell.status : "ok"},
-                         {"mark", cell.is_best ? "best" : ""}});
+                         {"mark", mark_of(cell)}});
       }
     }
     out.push_back({{"title", table.title},

@@ -128,6 +128,21 @@ void judge_closures(const CorrectArguments& a, Correction& done) {
   if (!rows.empty()) write_file(a.ledger, rows);
 }
 
+/// correct(); a method that fails on the input is an InputError.
+Correction corrected(Problem problem,
+                     const std::string& name,
+                     const MethodChoice& choice,
+                     const std::vector<double>& at,
+                     const Catalogue& catalogue) {
+  try {
+    return correct(std::move(problem), name, choice, at, catalogue);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError(name + ": " + choice.label + " failed: " + error.what());
+  }
+}
+
 }  // namespace
 
 Problem load_problem(const CorrectArguments& a,
@@ -176,10 +191,6 @@ FigureData before_and_after(const Correction& done) {
 }
 
 Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
-  for (const std::string& file : {a.out, a.ledger}) {
-    if (file.empty() || is_dash(file)) continue;
-    reject_overwriting({a.estimate, a.loops, a.anchors, a.frames, a.at}, file);
-  }
   const MethodChoice choice = method_without_reference(a.method, catalogue);
   Provenance provenance;
   Problem problem = load_problem(a, catalogue, &provenance);
@@ -190,7 +201,7 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   }
   std::size_t outside = 0;
   const std::vector<double> at = output_stamps(a, problem, outside);
-  Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);
+  Correction out = corrected(std::move(problem), a.estimate, choice, at, catalogue);
   out.outside = outside;
   out.provenance = std::move(provenance);
   if (!a.ledger.empty() || uses_closures(choice, catalogue)) judge_closures(a, out);

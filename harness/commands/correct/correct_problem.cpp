@@ -84,9 +84,11 @@ Correction correct(Problem problem,
   out.problem = std::move(problem);
   out.estimate = name;
   out.method = choice.label;
+  program_costs() = {};
   const auto begin = std::chrono::steady_clock::now();
   const std::unique_ptr<const Curve> curve = method->estimate(out.problem, out.report);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  settle_costs(out.report);
   out.keyframes = curve->sample(stamps(out.problem.keyframes));
   check(out.keyframes, choice.label);
   check_covariances(out.report.covariances, out.keyframes.size());

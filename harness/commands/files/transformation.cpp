@@ -4,14 +4,14 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "datasets/core/mirrored.hpp"
+#include "datasets/formats/regular_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -33,12 +33,13 @@ Similarity from_numbers(const std::vector<double>& v, double scale, const std::s
 }
 
 Similarity from_json(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
+  constexpr std::size_t kMost = 1 << 20;  // [bytes]
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
     throw InputError("'" + file +
                      "': expected x,y,z or x,y,z,qx,qy,qz,qw, or an existing JSON file");
   }
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = read_named_file(file, kMost, "a transform in JSON");
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) throw InputError(file + ": is not a JSON object");
   const auto number = [&](const char* key, std::optional<double> otherwise) {

@@ -17,7 +17,13 @@ LoopsResult loops(Problem problem, std::string estimate) {
     throw InputError(estimate + ": " + why);
   }
   LoopsResult out{std::move(estimate), std::move(problem), {}};
-  out.ledger = methods::closure_ledger(out.problem);
+  try {
+    out.ledger = methods::closure_ledger(out.problem);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError(out.estimate + ": its closures cannot be checked: " + error.what());
+  }
   return out;
 }
 
