@@ -87,7 +87,7 @@ NamedColumn named_column(std::string_view name) {
   }
   if (out.base == "q" && is_one_of(out.unit, "0|1|2|3")) out = {"q" + out.unit, {}};
   if (out.base.ends_with("position") && is_one_of(out.unit, "0|1|2")) {  // of PX4
-    out = {out.base + "xyz"[out.unit.front() - '0'], {}};
+    out = {out.base + "xyz" [out.unit.front() - '0'], {}};
   }
   return out;
 }

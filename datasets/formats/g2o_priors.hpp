@@ -12,8 +12,8 @@
 #include "datasets/columns/columns.hpp"
 #include "datasets/columns/pose_rules.hpp"
 #include "datasets/columns/text_file.hpp"
-#include "datasets/formats/detect_format.hpp"
 #include "datasets/core/anchor.hpp"
+#include "datasets/formats/detect_format.hpp"
 
 namespace loopbench {
 

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <ios>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -203,6 +204,8 @@ int run_command(CLI::App& app,
     return fail(with_guess(error), kExitBadInput);
   } catch (const MissingPart& error) {
     return fail(error.what(), kExitMissingPart);
+  } catch (const std::ios_base::failure& error) {
+    return fail(std::string("a file cannot be read: ") + error.what(), kExitBadInput);
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(error.path1().string() + ": " + error.code().message(), kExitBadInput);
   } catch (const std::system_error& error) {
