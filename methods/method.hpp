@@ -119,11 +119,11 @@ MethodEntry method(std::string name, std::string summary, typename T::Options de
   using Method = std::conditional_t<is_replayer, Replayer, Estimator>;
   using Base = std::
       conditional_t<is_corrector, Corrector, std::conditional_t<is_smoother, Smoother, Method>>;
+  Kind kind = is_replayer ? Kind::replay : Kind::joint;
+  if (is_smoother) kind = Kind::smoother;
+  if (is_corrector) kind = Kind::corrector;
   return {std::move(name),
-          is_corrector  ? Kind::corrector
-          : is_smoother ? Kind::smoother
-          : is_replayer ? Kind::replay
-                        : Kind::joint,
+          kind,
           std::move(summary),
           describe(defaults),
           [defaults](const Params& given) -> Stage {

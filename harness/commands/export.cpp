@@ -181,7 +181,6 @@ void add_export(CLI::App& app, int& exit_code) {
       return;
     }
     if (a->what == "notes") {
-      if (!a->out.empty()) reject_overwriting({store_file(a->store)}, a->out);
       write_file(a->out.empty() ? "-" : a->out, json(counted_notes(a->store)) + "\n");
       return;
     }

@@ -77,10 +77,13 @@ std::string text(std::vector<Table> tables,
   for (Table& table : tables) {
     out += out.empty() || out.ends_with("\n\n") ? "" : "\n";
     if (!alignment.empty()) table.facts += (table.facts.empty() ? "" : "; ") + alignment;
-    out += format == ExportFormat::latex ? latex(table, output.wide)
-           : format == ExportFormat::terminal
-               ? terminal(with_common_unit(without_empty_columns(table)), style)
-               : markdown(table);
+    if (format == ExportFormat::latex) {
+      out += latex(table, output.wide);
+    } else if (format == ExportFormat::terminal) {
+      out += terminal(with_common_unit(without_empty_columns(table)), style);
+    } else {
+      out += markdown(table);
+    }
   }
   return out;
 }

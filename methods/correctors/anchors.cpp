@@ -109,7 +109,8 @@ Pose UsedAnchors::alignment(const Trajectory& poses) const {
 
 std::size_t UsedAnchors::degrees_of_freedom() const {
   const std::size_t coordinates = (planar ? 2 : 3) * anchors.size();
-  return coordinates - (!is_first_free ? 0 : planar ? 3 : 6);
+  const std::size_t of_first = planar ? 3 : 6;
+  return coordinates - (is_first_free ? of_first : 0);
 }
 
 void UsedAnchors::report_held_pose(Report& report) const {

@@ -34,7 +34,10 @@ Twist bound_of(std::span<const Edge> odometry) {
 
 }  // namespace
 
-double inlier_chi2(std::size_t dof) { return dof == 3 ? 11.345 : dof == 6 ? 16.812 : 18.475; }
+double inlier_chi2(std::size_t dof) {
+  if (dof == 3) return 11.345;
+  return dof == 6 ? 16.812 : 18.475;
+}
 
 std::size_t degrees_of_freedom(std::size_t keyframes, std::size_t edges, std::size_t dimensions) {
   return edges + 1 > keyframes ? dimensions * (edges + 1 - keyframes) : 0;

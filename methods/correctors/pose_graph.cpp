@@ -30,7 +30,8 @@ Group group_of(const Problem& problem, Poses requested, bool has_drift) {
 }
 
 std::size_t dimensions(Group group) {
-  return group == Group::se2 ? 3 : group == Group::se3 ? 6 : 7;
+  if (group == Group::se2) return 3;
+  return group == Group::se3 ? 6 : 7;
 }
 
 PoseGraphSettings settings_of(const Problem& problem,
@@ -226,9 +227,11 @@ Trajectory optimised(const Problem& problem,
   const bool has_dcs_weights = is_dcs && !is_gnc && !problem.closures.empty();
   if (!is_gnc) run.set_initial_poses(used, report);
   used.report_held_pose(report);
-  const PoseGraphSummary summary = is_gnc            ? solve_graduated(run, report)
-                                   : has_dcs_weights ? solve_dcs(run, report)
-                                                     : solve_once(run, report);
+  const auto solve = [&] {
+    if (is_gnc) return solve_graduated(run, report);
+    return has_dcs_weights ? solve_dcs(run, report) : solve_once(run, report);
+  };
+  const PoseGraphSummary summary = solve();
   report.count("iterations", run.iterations);
   const bool is_robust = options.loss != RobustLoss::none;
   report.count(is_robust ? "robust_chi2_before" : "chi2_before", 2.0 * summary.cost_before);

@@ -15,9 +15,9 @@ std::vector<double> step_weights(const Trajectory& keyframes, StepWeights weight
   for (std::size_t i = 1; i < keyframes.size(); ++i) {
     const auto& [before, a] = keyframes[i - 1];
     const auto& [stamp, b] = keyframes[i];
-    shares[i] = weights == StepWeights::time       ? stamp - before
-                : weights == StepWeights::distance ? (b.translation - a.translation).norm()
-                                                   : angle_between(a.rotation, b.rotation);
+    if (weights == StepWeights::time) shares[i] = stamp - before;
+    if (weights == StepWeights::distance) shares[i] = (b.translation - a.translation).norm();
+    if (weights == StepWeights::rotation) shares[i] = angle_between(a.rotation, b.rotation);
   }
   return shares;
 }

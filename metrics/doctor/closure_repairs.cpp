@@ -76,7 +76,8 @@ std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& lo
   double largest = 0.0;
   for (const Convention& each : all) {
     // Axes are one of many conventions.
-    const double penalty = each.option == kDirection ? 0.0 : each.unusual > 1.0 ? 2.0 * unit : unit;
+    const double of_axes = each.unusual > 1.0 ? 2.0 * unit : unit;
+    const double penalty = each.option == kDirection ? 0.0 : of_axes;
     const double gained = gain(as_read, MedianFit(chosen, chain, each.change)) - penalty;
     if (!(gained > largest)) continue;
     largest = gained;

@@ -19,7 +19,9 @@ struct Region {
   int percent;
   double one, two, three, six;
   double squared_radius(int freedom) const {
-    return freedom == 1 ? one : freedom == 2 ? two : freedom == 3 ? three : six;
+    if (freedom == 1) return one;
+    if (freedom == 2) return two;
+    return freedom == 3 ? three : six;
   }
 };
 constexpr std::array kRegions{

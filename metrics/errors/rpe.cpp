@@ -226,9 +226,10 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
                   options,
                   Measured::estimate);
   }
-  const auto from = options.pairs_from != RpePairsFrom::protocol  ? options.pairs_from
-                    : protocol.pairs_from == PairsFrom::reference ? RpePairsFrom::reference
-                                                                  : RpePairsFrom::estimate;
+  const bool is_stated = options.pairs_from != RpePairsFrom::protocol;
+  const auto of_protocol = protocol.pairs_from == PairsFrom::reference ? RpePairsFrom::reference
+                                                                       : RpePairsFrom::estimate;
+  const auto from = is_stated ? options.pairs_from : of_protocol;
   const bool is_in_time = options.unit == DeltaUnit::s || options.unit == DeltaUnit::frames;
   const bool is_of_reference = from == RpePairsFrom::reference;
   const std::vector<FromTo> pairs =

@@ -12,7 +12,8 @@ namespace loopbench::metrics {
 /// core/trajectory.py:200-230. O(n). No effect for `none`.
 inline void project(Trajectory& trajectory, ProjectionPlane plane) {
   if (plane == ProjectionPlane::none) return;
-  const int across = plane == ProjectionPlane::xy ? 2 : plane == ProjectionPlane::xz ? 1 : 0;
+  int across = plane == ProjectionPlane::xz ? 1 : 0;
+  if (plane == ProjectionPlane::xy) across = 2;
   for (auto& [stamp, pose] : trajectory) {
     const auto [roll, pitch, yaw] = euler(pose.rotation);
     pose.translation[across] = 0.0;

@@ -116,9 +116,8 @@ Features find_features(const RgbdFrame& frame, const Camera& camera, const Featu
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const cv::KeyPoint& point = kept[i];
     // Feature size at the finest level [px]; ORB reports its patch size of 31 px.
-    const float finest = o.kind == FeatureKind::orb     ? 31.0f
-                         : o.kind == FeatureKind::akaze ? 4.8f
-                                                        : 3.2f;
+    float finest = o.kind == FeatureKind::akaze ? 4.8f : 3.2f;
+    if (o.kind == FeatureKind::orb) finest = 31.0f;
     const float sigma = std::max(1.0f, point.size / finest);
     const float depth = median_depth_at(frame.depth, point.pt.x, point.pt.y);
     out.points.push_back(

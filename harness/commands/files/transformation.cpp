@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "datasets/core/mirrored.hpp"
-#include "datasets/formats/regular_file.hpp"
+#include "datasets/files/regular_file.hpp"
 
 namespace loopbench::harness {
 namespace {

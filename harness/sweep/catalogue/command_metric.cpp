@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "datasets/core/fields.hpp"
-#include "datasets/formats/replace_file.hpp"
+#include "datasets/files/replace_file.hpp"
 #include "harness/sweep/catalogue/message.hpp"
 #include "harness/sweep/catalogue/scratch.hpp"
 #include "harness/sweep/catalogue/server.hpp"

@@ -12,8 +12,8 @@
 
 #include "datasets/core/fields.hpp"
 #include "datasets/derive/problem_graph.hpp"
+#include "datasets/files/replace_file.hpp"
 #include "datasets/formats/formats.hpp"
-#include "datasets/formats/replace_file.hpp"
 #include "harness/sweep/process/write_file.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 

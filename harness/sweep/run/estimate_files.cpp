@@ -10,8 +10,8 @@
 
 #include "datasets/core/fields.hpp"
 #include "datasets/derive/planar.hpp"
+#include "datasets/files/replace_file.hpp"
 #include "datasets/formats/formats.hpp"
-#include "datasets/formats/replace_file.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "harness/sweep/process/write_file.hpp"
 #include "harness/sweep/run/summarise_sequence.hpp"

@@ -26,7 +26,8 @@ void add_section(
 
 const char* family_name(const GraphPiece<Polynomial>& piece) {
   const auto& c = piece.curve.coefficients;
-  return c[3] != 0.0 ? "cubic" : c[2] != 0.0 ? "parabola" : "line";
+  if (c[3] != 0.0) return "cubic";
+  return c[2] != 0.0 ? "parabola" : "line";
 }
 const char* family_name(const GraphPiece<Sine>&) { return "sin1"; }
 const char* family_name(const GraphPiece<Rational>&) { return "rat02"; }
@@ -116,8 +117,8 @@ void describe_jumps(const ManifoldCurve& curve, Report& report) {
 }
 
 std::size_t min_segment_nodes(const DmOptions& o) {
-  const int nodes = o.min_nodes > 0 ? o.min_nodes : o.planar > 0 ? o.planar : o.spatial;
-  return static_cast<std::size_t>(nodes);
+  const int window = o.planar > 0 ? o.planar : o.spatial;
+  return static_cast<std::size_t>(o.min_nodes > 0 ? o.min_nodes : window);
 }
 
 PlanarRule planar_rule(const DmOptions& o,

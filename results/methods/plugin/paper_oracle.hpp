@@ -142,9 +142,8 @@ inline std::unique_ptr<const Curve> PaperOracle::smooth_in_axes(const Problem& p
   std::shared_ptr<const methods::manifold::ManifoldCurve> fitted =
       dm_.fit(problem, report, piece_cost);
   if (!fitted) return std::make_unique<Polyline>(problem.keyframes);
-  const ReferenceUse use = options_.overwrite            ? ReferenceUse::overwrite
-                           : options_.reference_abscissa ? ReferenceUse::abscissa
-                                                         : ReferenceUse::none;
+  ReferenceUse use = options_.reference_abscissa ? ReferenceUse::abscissa : ReferenceUse::none;
+  if (options_.overwrite) use = ReferenceUse::overwrite;
   return std::make_unique<ReferenceAbscissa>(std::move(fitted), std::move(reference), use);
 }
 
