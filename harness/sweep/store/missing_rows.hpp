@@ -11,11 +11,17 @@
 
 namespace loopbench::harness {
 
-/// Keys of provenance, of cells or of rows, whose rows are not all there: a key is their hash.
+/// Keys of provenance that cells can have: those of rows, and that of no rows.
+inline std::set<std::string> provenance_keys(Database& database) {
+  std::set<std::string> out{Fields().hashed()};
+  Statement row = database.prepare("SELECT DISTINCT provenance_key FROM provenance");
+  while (row.step()) out.insert(row.text());
+  return out;
+}
+
+/// Keys of provenance whose rows are not all there: a key is their hash.
 inline std::set<std::string> incomplete_provenance(Database& database) {
   std::map<std::string, Fields> found;
-  Statement cell = database.prepare("SELECT DISTINCT provenance_key FROM cell");
-  while (cell.step()) found[cell.text()];
   Statement row =
       database.prepare("SELECT provenance_key, key, value FROM provenance ORDER BY 1, 2");
   while (row.step()) {

@@ -161,6 +161,7 @@ std::vector<StoredCell> read_stored_cells(Database& database) {
   const std::set<std::string> damaged_provenance = damaged_rows(database, kProvenanceTable);
   const std::set<std::string> damaged_inputs = damaged_rows(database, kInputTable);
   std::map<std::string, std::int64_t> sizes = sizes_of_notes(database);
+  const std::set<std::string> known_provenance = provenance_keys(database);
   std::vector<StoredCell> out;
   std::vector<std::uint64_t> hashes;
   Statement row = database.prepare(
@@ -179,7 +180,8 @@ std::vector<StoredCell> read_stored_cells(Database& database) {
     row.read(notes_key, notes);
     fields(c, [&](const CellColumn&, auto& value) { read_field(row, value); });
     row.read(c.failed_scores, c.scores, c.trace_hash);
-    c.intact = !damaged_provenance.contains(provenance_key) &&
+    c.intact = known_provenance.contains(provenance_key) &&
+               !damaged_provenance.contains(provenance_key) &&
                !damaged_inputs.contains(c.sequence_key) &&
                notes == (notes_key.empty() ? 0 : sizes[notes_key]);
     c.placed = position.has_value();
@@ -283,14 +285,14 @@ std::set<std::string> remove_damaged_rows(Database& database, const SharedTable&
 }
 
 void require_intact_descriptions(Database& database) {
-  if (const std::string missing = missing_run_value(database); !missing.empty()) {
-    throw_damaged(database.file(), "row " + missing + " of its table run is");
-  }
   for (const SharedTable& table : {kRunTable, kProvenanceTable, kInputTable, kSequenceNoteTable}) {
     const std::set<std::string> damaged = damaged_rows(database, table);
     if (damaged.empty()) continue;
     throw_damaged(database.file(),
                   "row " + *damaged.begin() + " of its table " + table.name + " is");
+  }
+  if (const std::string missing = missing_run_value(database); !missing.empty()) {
+    throw_damaged(database.file(), "row " + missing + " of its table run is");
   }
 }
 
