@@ -11,13 +11,14 @@
 
 namespace loopbench::harness {
 
-/// Whether a file is a store: its schema is on its first page.
+/// Whether a file is a store: its first pages have the definition of a table that only stores have.
 inline bool is_store(const std::filesystem::path& file) {
-  constexpr std::streamsize kPages = 64 << 10;  // [bytes]
+  constexpr std::streamsize kPages = 256 << 10;  // [bytes]
   std::ifstream in(file, std::ios::binary);
   std::string text(static_cast<std::size_t>(kPages), '\0');
   in.read(text.data(), kPages);
-  return text.starts_with("SQLite format 3") && text.find("sequence_trace") != std::string::npos;
+  return text.starts_with("SQLite format 3") &&
+         text.find("provenance_key TEXT NOT NULL") != std::string::npos;
 }
 
 /// The stores in these folders, up to four folders below them: their folders, their files and their
