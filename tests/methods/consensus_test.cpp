@@ -247,6 +247,7 @@ TEST(Consensus, JoinsPartsWithoutOdometryBetween) {
   const Sequence drive = simulated_drive({.closures = 20});
   Problem problem = drive.problem;
   // Tracking is lost after keyframe 100 and starts again at the origin.
+  const Trajectory complete = corrected<Consensus>(problem);
   std::erase_if(problem.odometry, [](const Edge& edge) { return edge.from == 100; });
   const Pose moved = problem.keyframes[101].world_from_body.inverse();
   for (std::size_t k = 101; k < problem.keyframes.size(); ++k) {
@@ -255,8 +256,8 @@ TEST(Consensus, JoinsPartsWithoutOdometryBetween) {
   Report report;
   const Trajectory joined = corrected<Consensus>(problem, {}, &report);
   EXPECT_THAT(*report.rejected, IsEmpty());
-  const Trajectory truth = at_stamps_of(joined, drive.reference);
-  EXPECT_LT(rmse(joined, truth), 0.5 * rmse(drive.problem.keyframes, truth));
+  // The step is unknown, so that the odometry no longer holds the parts together: metres on 1 km.
+  EXPECT_LT(largest_distance(joined, complete), 5.0);
 }
 
 TEST(Consensus, TakesClosuresDerivedFromTheOdometryForNoEvidence) {
