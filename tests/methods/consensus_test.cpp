@@ -97,29 +97,6 @@ void expect_equal_densities(const Problem& problem) {
   }
 }
 
-template <class G>
-void expect_equal_predictions(const Problem& problem) {
-  const std::vector<std::size_t> all = indices(problem.closures.size());
-  const ReducedChain<G> chain = reduced_chain<G>(problem, all);
-  const CycleModel<G> model(chain, chain.poses);
-  const LogFactors at{-0.2, 0.5, 0.1};
-  const std::vector<std::size_t> known{0, 2}, others{1, 3, 4};
-  Elimination<G> eliminated(model, at);
-  ASSERT_TRUE(eliminated.condition_on(known));
-  const std::vector<LeftOut<G>> found = JointLoops<G>(model, at, known).given_these(others);
-  ASSERT_EQ(found.size(), others.size());
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    const double size = 1.0 + found[i].covariance.norm();
-    EXPECT_LT((eliminated.error(others[i]) - found[i].error).norm(), 1e-9 * size);
-    EXPECT_LT((eliminated.covariance(others[i]) - found[i].covariance).norm(), 1e-9 * size);
-  }
-}
-
-TEST(JointLoops, PredictOthersAsTheEliminationDoes) {
-  expect_equal_predictions<Se3>(rounds(2));
-  expect_equal_predictions<Se2>(simulated_drive({.closures = 6}).problem);
-}
-
 TEST(Elimination, HasTheDensitiesOfTheJointCovariance) {
   expect_equal_densities<Se3>(rounds(1));
   expect_equal_densities<Se2>(simulated_drive({.closures = 6}).problem);

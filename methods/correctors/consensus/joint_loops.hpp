@@ -3,8 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -26,24 +24,20 @@ class JointLoops {
   JointLoops(const CycleModel<G>& model,
              const LogFactors& factors,
              const std::vector<std::size_t>& loops)
-      : model_(model),
-        loops_(loops),
-        sums_(model.step_sums(factors)),
-        closure_variance_(std::exp(2.0 * factors.closures)) {
+      : model_(model), loops_(loops), sums_(model.step_sums(factors)) {
     const auto size = D * static_cast<Eigen::Index>(loops.size());
+    const double variance = std::exp(2.0 * factors.closures);
     Eigen::MatrixXd covariance(size, size);
     Eigen::VectorXd rho(size);
     for (std::size_t j = 0; j < loops.size(); ++j) {
       for (std::size_t i = j; i < loops.size(); ++i) {
         covariance.block<D, D>(row(i), row(j)) = model.shared(sums_, loops[i], loops[j]);
       }
-      covariance.block<D, D>(row(j), row(j)) += closure_variance_ * model.own(loops[j]);
+      covariance.block<D, D>(row(j), row(j)) += variance * model.own(loops[j]);
       rho.segment<D>(row(j)) = model.rho(loops[j]);
     }
     factor_.compute(covariance);
-    if (!is_positive()) return;
-    white_ = factor_.matrixL().solve(rho);
-    multipliers_ = factor_.matrixU().solve(white_);
+    if (is_positive()) multipliers_ = factor_.solve(rho);
   }
 
   /// Whether C is positive definite; nothing else may be called otherwise.
@@ -56,30 +50,6 @@ class JointLoops {
       multipliers.push_back(multipliers_.template segment<D>(row(i)));
     }
     return model_.corrected(sums_, loops_, multipliers);
-  }
-
-  /// Other loops, given these. O(others loops^2).
-  std::vector<LeftOut<G>> given_these(const std::vector<std::size_t>& others) const {
-    constexpr std::size_t kBatch = 64;  // bounds the memory
-    std::vector<LeftOut<G>> out;
-    for (std::size_t begin = 0; begin < others.size(); begin += kBatch) {
-      const std::size_t count = std::min(kBatch, others.size() - begin);
-      Eigen::MatrixXd cross(white_.size(), row(count));
-      for (std::size_t j = 0; j < count; ++j) {
-        for (std::size_t i = 0; i < loops_.size(); ++i) {
-          cross.block<D, D>(row(i), row(j)) = model_.shared(sums_, loops_[i], others[begin + j]);
-        }
-      }
-      factor_.matrixL().solveInPlace(cross);
-      for (std::size_t j = 0; j < count; ++j) {
-        const std::size_t a = others[begin + j];
-        const auto part = cross.middleCols<D>(row(j));
-        const Square open = model_.shared(sums_, a, a) + closure_variance_ * model_.own(a);
-        out.push_back(
-            {model_.rho(a) - part.transpose() * white_, open - part.transpose() * part, 0.0, 0.0});
-      }
-    }
-    return out;
   }
 
   /// One per loop: with P = C^-1, the covariance P_aa^-1 and the error P_aa^-1 (P rho)_a.
@@ -117,9 +87,8 @@ class JointLoops {
   const CycleModel<G>& model_;
   const std::vector<std::size_t>& loops_;
   std::vector<Square> sums_;
-  double closure_variance_;
   Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor_;
-  Eigen::VectorXd white_, multipliers_;  ///< L^-1 rho and C^-1 rho
+  Eigen::VectorXd multipliers_;
 };
 
 }  // namespace loopbench::methods::consensus

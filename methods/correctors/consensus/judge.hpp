@@ -188,7 +188,6 @@ class Judge {
   /// Adds the closures that were not in the search: to the core those that agree, fitting the
   /// factors again; then all others, each compared with the core alone.
   void extend(const Part& searched, const Explanation<G>& found) {
-    constexpr std::size_t kRefitted = kSearched<G> * 3 / 2;  // closures of the second fit
     std::vector<std::size_t> chosen = evenly_chosen(measured_, kCore<G>);
     chosen.insert(chosen.end(), searched.closures->begin(), searched.closures->end());
     std::ranges::sort(chosen);
@@ -198,7 +197,7 @@ class Judge {
     Explanation<G> core{found.factors, {}, widened(chain, chosen, searched, found, kept)};
     core.kept = agreeing_loops(core.model, core.factors, kept, 0);
     if (core.kept.empty()) core.kept = kept;
-    const LoopLikelihood some(core.model, evenly_chosen(core.kept, kRefitted));
+    const LoopLikelihood some(core.model, evenly_chosen(core.kept, 2 * kSearched<G>));
     core.factors = climb(some, core.factors, 0.35, 0.15);
     set_factors(core.factors);
     relinearise(core.model, core.factors, core.kept);
@@ -219,47 +218,42 @@ class Judge {
                 const LogFactors& factors,
                 const std::vector<std::size_t>& kept,
                 const std::vector<std::size_t>& compared) {
+    Elimination<G> eliminated(model, factors);
+    if (!eliminated.condition_on(kept)) return;
+    std::vector<bool> is_kept(model.size(), false);
     const JointLoops<G> joint(model, factors, kept);
     if (!joint.is_positive()) return;
-    const double variance = std::exp(2.0 * factors.closures);
-    std::vector<bool> is_kept(model.size(), false);
     const std::vector<LeftOut<G>> without = joint.left_out();
     for (std::size_t i = 0; i < kept.size(); ++i) {
       is_kept[kept[i]] = true;
-      judge(model, kept[i], without[i], variance);
+      judge(model, kept[i], without[i].error, without[i].covariance, eliminated);
       out_.closures[measured_[kept[i]]].finding = ClosureFinding::agrees;
     }
-    std::vector<std::size_t> others;
     for (std::size_t a = 0; a < model.size(); ++a) {
-      if (!is_kept[a]) others.push_back(a);
-    }
-    const std::vector<LeftOut<G>> predicted = joint.given_these(others);
-    for (std::size_t i = 0; i < others.size(); ++i) {
-      judge(model, others[i], predicted[i], variance);
-      const std::size_t k = measured_[others[i]];
-      const bool is_near =
-          normal_density(predicted[i].error, predicted[i].covariance).squared < kLargestSquared<G>;
-      if (!is_near || !(out_.closures[k].log_odds > 0.0)) continue;
-      if (!std::ranges::binary_search(compared, k)) {
-        out_.closures[k].finding = ClosureFinding::agrees;
+      if (is_kept[a]) continue;
+      const ErrorDensity inlier = eliminated.density(a);
+      judge(model, a, eliminated.error(a), eliminated.covariance(a), eliminated);
+      JudgedClosure& closure = out_.closures[measured_[a]];
+      const bool is_rest = !std::ranges::binary_search(compared, measured_[a]);
+      if (is_rest && closure.log_odds > 0.0 && inlier.squared < kLargestSquared<G>) {
+        closure.finding = ClosureFinding::agrees;
       }
     }
   }
 
-  /// `given`: by the others that agree.
   void judge(const CycleModel<G>& model,
              std::size_t a,
-             const LeftOut<G>& given,
-             double closure_variance) {
+             const typename G::Tangent& error,
+             const typename G::Square& covariance,
+             const Elimination<G>& eliminated) {
     JudgedClosure& closure = out_.closures[measured_[a]];
     const double outlier =
-        outlier_density(model, a, given.error, given.covariance, closure_variance);
-    closure.log_odds = normal_density(given.error, given.covariance).log_density - outlier;
+        outlier_density(model, a, error, covariance, eliminated.closure_variance());
+    closure.log_odds = normal_density(error, covariance).log_density - outlier;
     closure.finding =
         outlier > model.log_uniform() ? ClosureFinding::slipped : ClosureFinding::contradicts;
     // The error is a motion of the chain in the world; at the end of the closure:
-    const auto& end = model.poses()[model.chain().loops[a].to];
-    const typename G::Tangent gap = G::adjoint(G::inverse(end)) * given.error;
+    const auto gap = G::adjoint(G::inverse(model.poses()[model.chain().loops[a].to])) * error;
     constexpr int kFirst = kTranslation<G>;
     closure.metres = gap.template head<kFirst>().norm();
     closure.degrees = gap.template tail<G::kDof - kFirst>().norm() * 180.0 / M_PI;
