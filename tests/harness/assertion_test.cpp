@@ -62,7 +62,7 @@ TEST(Assertion, HasNoOrderFromTooFewRuns) {
   std::vector<Record> few = sweep();
   std::erase_if(few, [](const Record& r) { return r.cell->sequence == "city"; });
   EXPECT_EQ(why("dual is below uniform", few),
-            "measured 12 % below uniform; 4 runs of 1 sequence; a test needs 6");
+            "measured 12 % below uniform; 4 runs of 1 sequence; a test needs 7");
   EXPECT_NE(why("dual is at most 50 % above uniform", few), "");  // no interval
   EXPECT_EQ(why("raw is not above uniform", few), "");
 }

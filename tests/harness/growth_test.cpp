@@ -3,24 +3,50 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace loopbench::harness {
 namespace {
 
-TEST(Growth, FitsAPowerAndItsInterval) {
+TEST(Growth, FitsAPowerBesideAFixedCost) {
   const auto exact = fitted_power({10, 100, 1000, 10'000}, {0.02, 0.2, 2, 20});
   ASSERT_TRUE(exact);
-  EXPECT_NEAR(exact->exponent, 1.0, 1e-12);
-  EXPECT_NEAR(exact->factor, 0.002, 1e-12);
-  EXPECT_NEAR(exact->half_width, 0.0, 1e-6);
-  // Residuals -0.1, 0.2, -0.1 of the logarithms: standard error sqrt(0.06 / 2), t(1) = 12.71.
-  const double e = std::exp(1.0);
-  const auto rough = fitted_power({1.0, e, e * e}, {1.0, std::exp(1.3), e * e});
-  ASSERT_TRUE(rough);
-  EXPECT_NEAR(rough->exponent, 1.0, 1e-12);
-  EXPECT_NEAR(rough->half_width, 12.71 * std::sqrt(0.03), 1e-9);
+  EXPECT_NEAR(exact->exponent, 1.0, 1e-6);
+  EXPECT_NEAR(exact->factor, 0.002, 1e-7);
+  EXPECT_NEAR(exact->fixed, 0.0, 1e-6);
+  EXPECT_NEAR(exact->half_width.value(), 0.0, 1e-2);
+  // 3 + 0.01 n^1.5: without the fixed cost the exponent would be 0.6.
+  const auto fixed = fitted_power({10, 40, 160, 640}, {3.31623, 5.52982, 23.2386, 164.909});
+  ASSERT_TRUE(fixed);
+  EXPECT_NEAR(fixed->exponent, 1.5, 1e-3);
+  EXPECT_NEAR(fixed->fixed, 3.0, 1e-2);
   EXPECT_FALSE(fitted_power({10, 100, 100}, {1, 2, 3}));
   EXPECT_FALSE(fitted_power({10, 100, 1000}, {1, 0, 3}));
+}
+
+TEST(Growth, HasNoIntervalOfThreeSizes) {
+  const auto law = fitted_power({10, 100, 1000}, {1, 2, 30});
+  ASSERT_TRUE(law);
+  EXPECT_FALSE(law->half_width);
+  EXPECT_EQ(law_text(law).find("\u00b1"), std::string::npos);
+}
+
+TEST(Growth, HasIntervalsThatHoldWithAFixedCost) {
+  std::mt19937_64 bits(3);
+  int held = 0;
+  for (int draw = 0; draw < 300; ++draw) {
+    std::vector<double> sizes, values;
+    for (double size = 20.0; size < 3000.0; size *= 2.0) {
+      double noise = -6.0;  // nearly normal, standard deviation 1
+      for (int i = 0; i < 12; ++i) noise += static_cast<double>(bits() >> 11) * 0x1p-53;
+      sizes.push_back(size);
+      values.push_back((2.0 + 0.02 * std::pow(size, 1.3)) * std::exp(0.05 * noise));
+    }
+    const auto law = fitted_power(sizes, values);
+    ASSERT_TRUE(law && law->half_width);
+    held += std::abs(law->exponent - 1.3) <= *law->half_width ? 1 : 0;
+  }
+  EXPECT_GE(held, 0.94 * 300);
 }
 
 TEST(Growth, ReadsFamiliesFromOptionsNotFromLabels) {

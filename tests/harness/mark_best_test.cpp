@@ -1,4 +1,4 @@
-/// Tables mark the methods that `compare` calls best, and no others.
+/// Tables mark methods that `compare` calls best, and no others.
 
 #include <gtest/gtest.h>
 
@@ -55,23 +55,30 @@ std::vector<Record> of_sequence(std::vector<Record> records, const std::string& 
   return records;
 }
 
+/// The marks are corrected for the columns, and need the smallest mean: either those of compare or
+/// none.
+void expect_marks(const Names& marked, const Names& best) {
+  EXPECT_TRUE(marked.empty() || marked == best);
+}
+
 /// Returns the number of marks.
 std::size_t expect_marks_of_compare(const std::vector<Record>& records) {
   const Names best = called_best(records);
-  EXPECT_EQ(marked_in_column(table_of(records, {"method"}, {"score"}), 1), best);
-  EXPECT_EQ(marked_in_row(table_of(records, {"score"}, {"method"}), 0), best);
-  std::size_t marks = best.size();
+  const Names marked = marked_in_column(table_of(records, {"method"}, {"score"}), 1);
+  expect_marks(marked, best);
+  EXPECT_EQ(marked_in_row(table_of(records, {"score"}, {"method"}), 0), marked);
+  std::size_t marks = marked.size();
   const Table by_sequence = table_of(records, {"method"}, {"sequence"});
   for (std::size_t c = 1; c < by_sequence.headings.size(); ++c) {
     const std::string& heading = by_sequence.headings[c];
     const Names own = called_best(of_sequence(records, heading.substr(0, heading.rfind(" ["))));
-    EXPECT_EQ(marked_in_column(by_sequence, c), own) << heading;
-    marks += own.size();
+    expect_marks(marked_in_column(by_sequence, c), own);
+    marks += marked_in_column(by_sequence, c).size();
   }
   const Table sequences = table_of(records, {"sequence"}, {"method"});
   for (std::size_t row = 0; row < sequences.lines.size(); ++row) {
     const std::string& name = sequences.lines[row][0].text;
-    EXPECT_EQ(marked_in_row(sequences, row), called_best(of_sequence(records, name))) << name;
+    expect_marks(marked_in_row(sequences, row), called_best(of_sequence(records, name)));
   }
   return marks;
 }
@@ -116,7 +123,7 @@ std::vector<Record> two_methods(int runs) {
 TEST(Marks, AreNotGivenForLowCoverage) {
   std::vector<Record> records = two_methods(8);
   EXPECT_EQ(table_of(records, {"method"}, {"score"}).notes.front(),
-            "marked: the methods that compare calls best");
+            "marked: shown to be better than each other method of the column");
   for (Record& r : records) {
     r.possible = 100;
     r.pairs = r.cell->method == "first" ? 60 : 100;

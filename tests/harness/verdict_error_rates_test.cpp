@@ -66,7 +66,9 @@ TEST(VerdictErrorRates, LeaveRealDifferencesToBeFound) {
 TEST(VerdictErrorRates, AreLowForLoneAndFrequentFailures) {
   const Truth lone{
       .effects = {0.0, -0.69}, .groups = 8, .runs_in_group = 20, .failures = {0.0, 0.05}};
-  EXPECT_EQ(error_rates(lone, shapes()[0], 20, 11).found, 1.0);
+  const ErrorRates rates = error_rates(lone, shapes()[0], 20, 11);
+  EXPECT_EQ(rates.claimed, 1.0);
+  EXPECT_LT(rates.found, 0.1);  // it fails on runs that the other one solves
   const Truth hard{.effects = {0.0, 0.18}, .groups = 20, .hard = 0.33, .fails_hard = 1.0};
   EXPECT_GT(error_rates(hard, shapes()[0], kRepeats, 11).found, 0.8);
 }

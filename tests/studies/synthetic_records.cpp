@@ -142,8 +142,13 @@ Observations observations(const Truth& truth, const Shape& shape, std::mt19937_6
     for (std::size_t m = 0; m < truth.effects.size(); ++m) {
       const double effect =
           truth.effects[m] + (sequences == 0 ? 0.0 : truth.sequences[sequence][m]);
-      const double deviation = shape.draw(bits) - shape.typical;
-      out.values[m].push_back({std::exp(effect + truth.dispersion * deviation), false, ""});
+      const bool is_fixed = m == 0 && truth.baseline_is_fixed;
+      const double deviation = is_fixed ? 0.0 : shape.draw(bits) - shape.typical;
+      const double scatter =
+          truth.dispersion * (truth.dispersions.empty() ? 1.0 : truth.dispersions[sequence]);
+      out.values[m].push_back({std::exp(effect + scatter * deviation), false, ""});
+      if (!truth.failures.empty() && uniform(bits) < truth.failures[m])
+        out.values[m].back() = {std::nullopt, true, "failed"};
     }
   }
   return out;

@@ -49,7 +49,8 @@ struct Truth {
 /// One ATE per method and run.
 std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937_64& bits);
 
-/// The same without records, ten times as fast; only for effects, sequences and dispersion.
+/// The same without records, ten times as fast; only for effects, failures, sequences, dispersions
+/// and a fixed baseline.
 Observations observations(const Truth& truth, const Shape& shape, std::mt19937_64& bits);
 
 }  // namespace loopbench::synthetic

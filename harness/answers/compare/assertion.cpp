@@ -48,7 +48,7 @@ bool is_shown(const Assertion& a, const Comparison& c, const MethodVerdict& m) {
     case Assertion::Relation::below:
       return is_lower && (!a.percent || is_up_to(1.0 - *a.percent / 100.0));
     case Assertion::Relation::not_above:
-      return a.percent ? is_up_to(1.0 + *a.percent / 100.0) && !m.is_contradicted : !is_higher;
+      return a.percent ? is_up_to(1.0 + *a.percent / 100.0) : !is_higher;
     case Assertion::Relation::not_different:
       break;
   }

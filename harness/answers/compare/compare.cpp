@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -110,34 +111,39 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   return kept;
 }
 
+/// Whether a log ratio is that to a zero error.
+bool is_beyond(double log_ratio) { return std::abs(log_ratio) > 0.9 * kZeroRatio; }
+
 /// Of each sequence with a typical ratio, if there are several with several groups.
 std::vector<SequenceRatio> sequence_ratios(const Pair& pair, const KeptRuns& kept, double sign) {
   std::vector<SequenceRatio> out;
-  if (pair.by_sequence.size() < 2 || 2 * pair.by_sequence.size() > pair.values.size()) return out;
+  if (!pair.has_strata()) return out;
   for (const auto& [sequence, own] : pair.by_sequence) {
-    const double middle = own.middle();
-    if (std::abs(middle) > 0.1 * kNoRatio) continue;
-    const double ratio = std::exp(sign * middle);
-    out.push_back({kept.sequences[sequence], ratio, middle == 0.0 ? 1.0 : tested(own).p});
+    const RandomizationTest test({own});
+    if (is_beyond(test.typical())) continue;
+    out.push_back({kept.sequences[sequence], std::exp(sign * test.typical()), test.p()});
   }
   return out;
 }
 
-/// None where differences are no ratios, or most runs of one of the methods failed.
-std::optional<Ratio> ratio_of(const Pair& pair, const KeptRuns& kept, const Comparison& of) {
-  if (!pair.is_ratio || pair.values.empty()) return std::nullopt;
+/// None where differences are no ratios, or errors are zero.
+std::optional<Ratio> ratio_of(const Pair& pair,
+                              const KeptRuns& kept,
+                              const Comparison& of,
+                              double level) {
+  if (!pair.is_ratio || pair.groups == 0) return std::nullopt;
   const double sign = of.kind.better == metrics::Better::higher ? -1.0 : 1.0;
-  const auto interval = pair.typical_interval(level_of_one(of.options.alpha, of.tests));
-  const double estimate = interval ? interval->estimate : pair.typical();
-  if (std::abs(estimate) > 0.1 * kNoRatio) return std::nullopt;
+  const RandomizationTest test = pair.test();
+  if (is_beyond(test.typical())) return std::nullopt;
+  const auto interval = test.interval(level);
   Ratio out;
-  out.has_interval = interval.has_value();
-  const double low = std::exp(sign * (interval ? interval->low : estimate));
-  const double high = std::exp(sign * (interval ? interval->high : estimate));
-  out.typical = {std::exp(sign * estimate), std::min(low, high), std::max(low, high)};
+  out.has_interval = interval && !is_beyond(interval->low) && !is_beyond(interval->high);
+  const double low = std::exp(sign * (out.has_interval ? interval->low : test.typical()));
+  const double high = std::exp(sign * (out.has_interval ? interval->high : test.typical()));
+  out.typical = {std::exp(sign * test.typical()), std::min(low, high), std::max(low, high)};
   if (pair.mean && !pair.has_zero) out.geometric_mean = std::exp(sign * *pair.mean);
   out.by_sequence = sequence_ratios(pair, kept, sign);
-  out.is_of_sequences = pair.is_of_sequences();
+  out.is_of_sequences = pair.has_strata();
   return out;
 }
 
@@ -145,16 +151,23 @@ void add_baseline(MethodVerdict& method,
                   const Pair& pair,
                   const KeptRuns& kept,
                   const Comparison& of) {
-  method.ratio = ratio_of(pair, kept, of);
+  const double alpha = of.options.alpha;
+  method.ratio = ratio_of(pair, kept, of, method.level);
+  method.common = pair.runs;
   method.wins = pair.wins;
   method.losses = pair.losses;
   method.ties = pair.ties;
-  const double p = corrected(pair.p, of.tests);
-  if (of.can_show) method.p = p;
-  method.is_contradicted = p <= of.options.alpha && pair.is_contradicted();
-  const bool is_significant = pair.is_significant(level_of_one(of.options.alpha, of.tests));
-  method.beats_baseline = is_significant && pair.is_first_ahead();
-  method.is_beaten = is_significant && !pair.is_first_ahead();
+  if (!of.can_show) return;
+  const RandomizationTest test = pair.test();
+  const double p = pair.has_difference() ? test.p() : 1.0;
+  const bool is_equal_share = method.level == level_of_one(alpha, of.tests);
+  method.p = is_equal_share ? corrected(p, of.tests) : std::min(1.0, p * alpha / method.level);
+  const bool is_shown = pair.failure_p() <= alpha;
+  method.fails_more = is_shown && pair.first_fails_more();
+  if (p > method.level) return;
+  const bool is_ahead = test.typical() < 0.0;
+  if (is_shown && pair.first_fails_more() == is_ahead) return;
+  (is_ahead ? method.beats_baseline : method.is_beaten) = true;
 }
 
 MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size_t method_index) {
@@ -180,9 +193,8 @@ void sort_methods(std::vector<MethodVerdict>& methods, metrics::Better better) {
   const auto key = [&](const MethodVerdict& m) {
     const double sign = better == metrics::Better::higher ? -1.0 : 1.0;
     const auto behind = static_cast<double>(m.losses) - static_cast<double>(m.wins);
-    const double ratio = m.ratio        ? sign * m.ratio->typical.estimate
-                         : behind < 0.0 ? -kNoRatio
-                                        : kNoRatio;
+    double ratio = std::copysign(std::numeric_limits<double>::infinity(), behind);
+    if (m.ratio) ratio = sign * m.ratio->typical.estimate;
     return std::tuple(m.is_worse, ratio, behind);
   };
   std::ranges::stable_sort(methods, {}, key);
@@ -202,7 +214,11 @@ KeptRuns ranked(Observations& all, Comparison& out) {
     largest = std::max(largest, out.methods.emplace_back(counts_of(all, kept, m)).coverage);
   }
   for (MethodVerdict& m : out.methods) m.covers_less = m.coverage < kLess * largest;
-  rank_methods(Levels(kept.values, out.options.tie), out);
+  const MethodVerdict* const found = out.find(out.options.baseline);
+  const auto baseline = found == nullptr
+                            ? std::nullopt
+                            : std::optional(static_cast<std::size_t>(found - out.methods.data()));
+  rank_methods(Levels(kept.values, out.options.tie), baseline, out);
   return kept;
 }
 
@@ -226,6 +242,7 @@ Comparison compare_one(Observations& all, const CompareOptions& options) {
   MethodVerdict& itself = out.methods[baseline];
   itself.ties += std::exchange(itself.wins, 0) + std::exchange(itself.losses, 0);
   if (itself.ratio) itself.ratio->typical = {1.0, 1.0, 1.0};
+  itself.beats_baseline = itself.is_beaten = false;
   test_sequences(out);
   sort_methods(out.methods, out.kind.better);
   return out;

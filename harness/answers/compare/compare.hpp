@@ -13,7 +13,7 @@
 
 #include "harness/answers/compare/observations.hpp"
 #include "harness/answers/compare/pair.hpp"
-#include "harness/answers/compare/signed_rank.hpp"
+#include "harness/answers/compare/typical.hpp"
 
 namespace loopbench::harness {
 
@@ -29,7 +29,7 @@ struct CompareOptions {
   Over over = Over::groups;
   double alpha = 0.05;     ///< probability of a false claim among those about a score
   double tie = kTieShare;  ///< relative difference up to which values are equal
-  double relevant = 0.01;  ///< relative difference from which on a method is better for practice
+  double relevant = 0.02;  ///< relative difference from which on a method is better for practice
   bool paired = false;     ///< also pair runs of files, by their names; those of sweeps always are
 };
 
@@ -43,11 +43,13 @@ struct SequenceRatio {
 
 /// Ratio of two methods, the first by the second.
 struct Ratio {
-  Interval typical;           ///< with a simultaneous interval, see Pair::typical()
+  /// Of the mean over the sequences of typical log ratios, see RandomizationTest, with the interval
+  /// of level 1 - MethodVerdict::level.
+  Interval typical;
   bool has_interval = false;  ///< false: too few groups; typical.low and high equal the estimate
   std::optional<double> geometric_mean;  ///< over groups on which both have values; none with zeros
   std::vector<SequenceRatio> by_sequence;  ///< if each sequence has several groups
-  bool is_of_sequences = false;  ///< the typical ratio is the geometric mean over the sequences
+  bool is_of_sequences = false;            ///< the typical ratio is a mean over several sequences
 };
 
 struct MethodVerdict {
@@ -55,19 +57,21 @@ struct MethodVerdict {
   MethodParts parts = {};
   double median = 0.0;         ///< of its values
   std::size_t runs = 0;        ///< runs with a value
-  std::size_t fails = 0;       ///< runs that count as a loss
+  std::size_t fails = 0;       ///< runs on which it failed
   double coverage = 1.0;       ///< of the reference, mean over its values, 0..1
   bool covers_less = false;    ///< clearly less than another method: it is better than none
-  std::optional<Ratio> ratio;  ///< to the baseline; none for values below zero, most runs failed
-  std::size_t wins = 0;        ///< groups better than the baseline
+  std::optional<Ratio> ratio;  ///< to the baseline; none for values below zero, or without a run
+                               ///< that both solved
+  std::size_t common = 0;      ///< runs that it and the baseline solved
+  std::size_t wins = 0;        ///< groups of these on which it is better than the baseline
   std::size_t losses = 0;
   std::size_t ties = 0;
-  std::optional<double> p;       ///< against the baseline, corrected; none if no test is possible
-  bool beats_baseline = false;   ///< significantly better
-  bool is_beaten = false;        ///< significantly worse than the baseline
-  bool is_contradicted = false;  ///< p is at most alpha, but the geometric mean disagrees
-  bool is_divided = false;       ///< significantly better on a sequence, worse on another
-  bool is_worse = false;         ///< than some method; otherwise it shares the first place
+  double level = 0.05;          ///< of its comparison with the baseline, so that all hold together
+  std::optional<double> p;      ///< against the baseline, corrected; none if no test is possible
+  bool beats_baseline = false;  ///< p is at most alpha, and it is not shown to fail more often
+  bool is_beaten = false;       ///< the same of the baseline
+  bool is_worse = false;        ///< than some method; otherwise it shares the first place
+  bool fails_more = false;      ///< it is shown to fail more often than the baseline
 };
 
 /// A method that lacks values on some or all runs.
@@ -98,8 +102,9 @@ struct Comparison {
   bool is_best = false;           ///< the first methods are best: all others are worse than one
   std::size_t tests = 0;          ///< different methods, but one, for which p is corrected
   bool can_show = false;          ///< whether the observations can be significant at all
-  bool has_strata = false;        ///< compared by rank sums within sequences
-  std::size_t groups_needed = 0;  ///< minimum for that; if has_strata, per method and sequence
+  std::size_t common = 0;         ///< most observations that two methods solved
+  bool is_independent = false;    ///< two samples of each sequence are compared
+  std::size_t groups_needed = 0;  ///< minimum to show anything; if independent, of each sample
 
   /// The verdict about a method; null for one that is not compared.
   const MethodVerdict* find(const std::string& method) const {
@@ -108,22 +113,23 @@ struct Comparison {
   }
 };
 
-/// Sets which methods are worse than another one, the others sharing the first place, and the last
-/// five members above.
+/// Sets the levels, and which methods are worse than another one, the others sharing the first
+/// place; and the last six members above.
 ///
-/// A method is best if it is significantly better than each rival, p <= alpha in every pair: that
-/// is one hypothesis about all rivals, which needs no correction (union-intersection), and all
-/// others are worse. Otherwise a method is worse if the test of some pair says so, with Holm's
-/// correction over all pairs. Together they mark a truly best method as worse with probability
-/// alpha at most (results/methods/verdicts.md). Equal methods count once. A method that is behind
-/// by less than a relevant difference shares the place of the other, and one with less coverage
-/// than another is better than none. `levels`: of `out.methods`. Deterministic.
-/// O(methods^2 * (runs log runs + groups^3)), groups^3 for up to 50 groups only.
-void rank_methods(const Levels& levels, Comparison& out);
+/// A method is best if it is ahead of each rival with p <= alpha, which is one hypothesis about all
+/// rivals, and also of the baseline with p <= 0.8 alpha; the baseline is best if each comparison
+/// with it is shown. Otherwise each comparison with the baseline has the level of Sidak's
+/// correction, and the share of alpha of those that are shown (at least a tenth) is that of Holm's
+/// correction over all other pairs (Bretz et al., 2009). A method that is behind by less than a
+/// relevant difference shares the place of the other. One with less coverage than another is better
+/// than none, and one that fails on runs that another solves is not better than that, unless the
+/// other is shown to fail more often. Equal methods count once. Without a baseline, a method is
+/// best if it would be with every other one as baseline. `levels`: of `out.methods`. Deterministic.
+/// O(methods^2) tests.
+void rank_methods(const Levels& levels, std::optional<std::size_t> baseline, Comparison& out);
 
 /// Sets which ratios of sequences are significant, with Holm's correction over the sequences and
-/// the methods that differ, and removes the claims over all of a method that is better on one
-/// sequence and worse on another.
+/// the methods that differ.
 void test_sequences(Comparison& comparison);
 
 /// One comparison for each score that has a direction. Deterministic. Throws InputError if the

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/answers/compare/signed_rank.hpp"
+#include "harness/answers/compare/typical.hpp"
 #include "harness/sweep/model/record.hpp"
 #include "metrics/numerics/median.hpp"
 
@@ -60,10 +60,10 @@ class Levels {
   bool is_ratio(std::size_t a, std::size_t b) const { return is_positive_[a] && is_positive_[b]; }
 
   /// Difference of a level of `a` to one of `b`: negative if `a` is better, exactly 0 for a tie,
-  /// +-kNoRatio if only one of them is zero or failed. Depends on these two methods only.
+  /// +-kZeroRatio if only one of them is zero. Depends on these two methods only.
   double difference(std::size_t a, std::size_t b, double of_a, double of_b) const;
 
-  /// The same on a run on which both were run.
+  /// The same on a run on which both have a value.
   double difference(std::size_t a, std::size_t b, std::size_t run) const {
     return difference(a, b, *all_.values[a][run], *all_.values[b][run]);
   }
@@ -72,6 +72,8 @@ class Levels {
   bool are_equal(std::size_t a, std::size_t b) const;
 
  private:
+  static constexpr double kWorst = 1e300;  // level of a failure in medians
+
   GroupedValues all_;  // distances to the target, if the score has one
   std::vector<bool> is_positive_;
   std::vector<std::vector<std::size_t>> runs_of_;
@@ -107,18 +109,14 @@ inline std::optional<double> Levels::level(std::size_t method, std::size_t group
   std::vector<double> known;
   for (const std::size_t run : runs_of_[group]) {
     if (!is_known(method, run)) continue;
-    const double worst = sign_ * kNoRatio;
-    known.push_back(has_value(method, run) ? *all_.values[method][run] : worst);
+    known.push_back(has_value(method, run) ? *all_.values[method][run] : sign_ * kWorst);
   }
   if (known.empty()) return std::nullopt;
   const double middle = metrics::median(known);
-  return std::abs(middle) < 0.1 * kNoRatio ? middle : kFailed;
+  return std::abs(middle) < 0.1 * kWorst ? middle : kFailed;
 }
 
 inline double Levels::difference(std::size_t a, std::size_t b, double of_a, double of_b) const {
-  const bool a_fails = std::isnan(of_a);
-  const bool b_fails = std::isnan(of_b);
-  if (a_fails || b_fails) return a_fails == b_fails ? 0.0 : a_fails ? kNoRatio : -kNoRatio;
   const double largest = std::max(std::abs(of_a), std::abs(of_b));
   if (std::abs(of_a - of_b) <= tie_ * std::max(largest, target_)) return 0.0;
   const double floor = zero_floor(largest);
@@ -126,7 +124,7 @@ inline double Levels::difference(std::size_t a, std::size_t b, double of_a, doub
   const bool b_zero = std::abs(of_b) <= floor;
   if (a_zero && b_zero) return 0.0;
   if (!is_ratio(a, b)) return sign_ * (of_a - of_b);
-  if (a_zero != b_zero) return sign_ * (a_zero ? -kNoRatio : kNoRatio);
+  if (a_zero != b_zero) return sign_ * (a_zero ? -kZeroRatio : kZeroRatio);
   return sign_ * (std::log(of_a) - std::log(of_b));
 }
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "harness/answers/compare/signed_rank.hpp"
+#include "harness/answers/compare/typical.hpp"
 #include "harness/sweep/model/evaluated_run.hpp"
 
 namespace loopbench::harness {

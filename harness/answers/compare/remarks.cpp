@@ -21,7 +21,8 @@ void add_gaps(const Comparison& c, Lines& out) {
         gap.is_ranked
             ? fmt::format("no value on {} of {} runs ({})", gap.missing, c.possible, gap.why)
             : fmt::format("not ranked, no value ({})", gap.why);
-    if (method != nullptr && method->fails > 0) what += ", failures are losses in the tests only";
+    if (method != nullptr && method->fails > 0)
+      what += ", numbers are of runs that both methods solved";
     const auto same = std::ranges::find(gaps, what, &std::pair<std::string, Lines>::first);
     (same == gaps.end() ? gaps.emplace_back(what, Lines()) : *same).second.push_back(gap.method);
   }
@@ -36,7 +37,7 @@ std::string cannot_show_text(const Comparison& c) {
   return fmt::format("{}; a test needs {}{}",
                      unit,
                      c.groups_needed,
-                     c.has_strata ? " runs of each method and sequence" : "");
+                     c.is_independent ? " runs of each method and sequence" : "");
 }
 
 std::string unit_text(const Comparison& c) {
@@ -94,22 +95,18 @@ Lines remarks(const Comparison& c) {
   Lines out = limitations(c);
   if (c.methods.empty()) return out;
   out.push_back(fmt::format(
-      "change, ratio: typical {} / {} (Hodges-Lehmann; geometric mean of sequences with 6 groups)",
+      "change, ratio: typical {} / {} (Hodges-Lehmann; geometric mean over sequences of several "
+      "groups)",
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
       c.options.baseline));
   if (!c.can_show) return out;
-  out.push_back(fmt::format("p: {} against {}, corrected for {}",
-                            c.has_strata ? "rank sums of runs within sequences"
-                            : c.is_ratio ? "signed-rank test of log ratios"
-                                         : "signed-rank test of differences",
-                            c.options.baseline,
-                            counted(c.tests, "test")));
+  out.push_back(fmt::format(
+      "p: {} against {}, corrected for {}",
+      c.is_ratio ? "randomization test of log ratios" : "randomization test of differences",
+      c.options.baseline,
+      counted(c.tests, "test")));
   if (!c.is_ratio) out.push_back("no ratio of methods with negative values");
-  for (const MethodVerdict& m : c.methods) {
-    if (!m.is_contradicted) continue;
-    out.push_back(m.method + ": ranks and the mean contradict each other, nothing is claimed");
-  }
   return out;
 }
 

@@ -33,20 +33,14 @@ const char* observed_unit(const Comparison& c) {
 
 /// Why the difference of a method to the baseline is no number.
 std::string without_number(const Comparison& c, const MethodVerdict& m) {
-  if (m.is_divided)
-    return "better or worse than " + c.options.baseline + ": it depends on the sequence";
-  const bool is_ahead = m.wins >= m.losses;
-  if (m.is_contradicted) {
-    return fmt::format("{} {} on most runs, but not in the mean",
-                       is_ahead ? "ahead of" : "behind",
-                       c.options.baseline);
-  }
+  if (m.wins + m.losses + m.ties == 0)
+    return "without a run that " + c.options.baseline + " solved";
   return fmt::format("{} than {} on {} of {} {}",
-                     is_ahead ? "better" : "worse",
+                     m.wins >= m.losses ? "better" : "worse",
                      c.options.baseline,
                      std::max(m.wins, m.losses),
                      m.wins + m.losses + m.ties,
-                     c.has_strata ? "pairs of runs" : observed_unit(c));
+                     c.is_independent ? "pairs of runs" : observed_unit(c));
 }
 
 /// The end nearer to zero first, of changes that are mostly below zero if `is_below`.
@@ -54,25 +48,55 @@ std::pair<double, double> ordered(const Change& change, bool is_below) {
   return is_below ? std::pair(change.high, change.low) : std::pair(change.low, change.high);
 }
 
+/// "37 to 44", of changes of which `sign` times is printed.
+std::string range_text(const Change& change, double sign) {
+  const auto [first, last] = ordered(change, sign < 0.0);
+  return percent_text(sign * first) + " to " + percent_text(sign * last);
+}
+
 /// "37 to 44 % below raw (95 %: 30 to 51)"; of a score with a target "closer to 1 than raw".
 std::string change_text(const Comparison& c, const VerdictGroup& of) {
   const Change& change = *of.all;
   const bool is_below = change.low + change.high <= 0.0;
   const double sign = is_below ? -1.0 : 1.0;
-  const auto range = [&](const Change& each) {
-    const auto [first, last] = ordered(each, is_below);
-    return percent_text(sign * first) + " to " + percent_text(sign * last);
+  const auto side = [&](bool below) {
+    if (c.kind.better != metrics::Better::target) return std::string(below ? "below" : "above");
+    return fmt::format("{} {:g} than", below ? "closer to" : "farther from", c.kind.target);
   };
-  std::string out = change.high - change.low > 1.0
-                        ? range(change)
-                        : percent_text(0.5 * sign * (change.low + change.high));
-  out += " % ";
-  out += c.kind.better == metrics::Better::target
-             ? fmt::format("{} {:g} than ", is_below ? "closer to" : "farther from", c.kind.target)
-             : std::string(is_below ? "below " : "above ");
-  out += c.options.baseline;
+  const bool is_range = change.high - change.low > 1.0;
+  std::string out;
+  if (is_range && change.low < 0.0 && change.high > 0.0) {
+    out = fmt::format("{} % {} to {} % {}",
+                      percent_text(change.high),
+                      side(false),
+                      percent_text(-change.low),
+                      side(true));
+  } else {
+    out =
+        is_range ? range_text(change, sign) : percent_text(0.5 * sign * (change.low + change.high));
+    out += " % " + side(is_below);
+  }
+  out += " " + c.options.baseline;
   if (!of.interval) return out;
-  return out + fmt::format(" ({:g} %: {})", 100.0 * (1.0 - c.options.alpha), range(*of.interval));
+  return out + fmt::format(" ({:g} %: {})",
+                           100.0 * (1.0 - c.options.alpha),
+                           range_text(*of.interval, sign));
+}
+
+/// " on 6 of 8 runs; b fails on 2", of the named methods and the baseline; empty without failures.
+std::string failures_text(const Comparison& c, const std::vector<const MethodVerdict*>& members) {
+  std::string out;
+  std::vector<const MethodVerdict*> all = members;
+  const MethodVerdict* const baseline = c.find(c.options.baseline);
+  if (std::ranges::count(all, baseline) == 0) all.push_back(baseline);
+  for (const MethodVerdict* m : all) {
+    if (m->fails == 0) continue;
+    out += fmt::format("{}{} fails on {}", out.empty() ? "; " : ", ", m->method, m->fails);
+    if (m->fails_more) out += " (shown to be more often)";
+  }
+  if (out.empty()) return "";
+  if (members.size() > 1 || c.is_independent) return out + fmt::format(" of {} runs", c.runs);
+  return fmt::format(" on {} of {} runs", members.front()->common, c.runs) + out;
 }
 
 std::string names_text(const Comparison& c, const Names& methods) {
@@ -81,20 +105,8 @@ std::string names_text(const Comparison& c, const Names& methods) {
     if (std::ranges::count(methods, m.method) > 0) members.push_back(&m);
   }
   const VerdictGroup group = group_of(members, {}, c.options.baseline);
-  return group.all ? change_text(c, group) : without_number(c, *members.front());
-}
-
-/// How many observations would decide the difference of a method that has an interval.
-std::string needed_text(const Comparison& c, const MethodVerdict& m) {
-  if (!m.ratio || !m.ratio->has_interval || m.p.value_or(0.0) <= c.options.alpha) return "";
-  const Interval& typical = m.ratio->typical;
-  const double distance = std::abs(std::log(typical.estimate));
-  if (distance < std::log1p(c.options.relevant)) return "";
-  const double side = std::log(typical.estimate < 1.0 ? typical.high : typical.low);
-  const double width = std::abs(side - std::log(typical.estimate));
-  const auto now = static_cast<double>(c.groups);
-  const double needed = std::max(now + 1.0, std::ceil(now * std::pow(width / distance, 2)));
-  return fmt::format("; about {:.0f} {} would decide (now {})", needed, observed_unit(c), c.groups);
+  const std::string out = group.all ? change_text(c, group) : without_number(c, *members.front());
+  return out + failures_text(c, members);
 }
 
 std::string why_no_comparison(const Comparison& c) {
@@ -105,12 +117,27 @@ std::string why_no_comparison(const Comparison& c) {
                      : "one method alone has values: nothing is compared";
 }
 
+/// "6 runs of 1 sequence cannot decide among 4 methods: 7 would".
+std::string cannot_decide_text(const Comparison& c) {
+  const bool are_common = c.common == c.groups || c.is_independent;
+  return fmt::format("{}{} cannot decide {} {} methods: {}{} would",
+                     unit_text(c),
+                     are_common ? "" : fmt::format(", of which two methods solved {},", c.common),
+                     c.tests == 1 ? "between" : "among",
+                     c.tests + 1,
+                     c.groups_needed,
+                     c.is_independent ? " of each method and sequence" : "");
+}
+
 /// "open 0.064 m, other 0.121 m (+91 %). One recording; a test needs 6".
 std::string too_few_text(const Comparison& c) {
   constexpr std::size_t kMost = 3;
   if (c.groups > 1) {
     const MethodVerdict& m = first_other(c);
-    return m.method + " is " + names_text(c, {m.method}) + ". " + cannot_show_text(c);
+    std::string out = cannot_decide_text(c) + "; " + m.method + " is " + names_text(c, {m.method});
+    if (m.ratio && failures_text(c, {&m}).empty())
+      out += fmt::format(" on {} of {}", std::max(m.wins, m.losses), m.wins + m.losses + m.ties);
+    return out;
   }
   std::vector<const MethodVerdict*> methods{c.find(c.options.baseline)};
   for (const MethodVerdict& m : c.methods) {
@@ -161,16 +188,7 @@ std::string best_text(const Comparison& c, const Names& first, bool has_baseline
   const std::string name = common_name(c, first);
   const bool is_one = first.size() == 1 || !common_corrector(c, first).empty();
   const char* const place = is_one ? " is best" : c.is_best ? " are best" : " share first place";
-  if (!has_baseline) {
-    Names divided;
-    for (const std::string& each : first) {
-      if (first.size() > 1 && c.find(each)->is_divided) divided.push_back(each);
-    }
-    const std::string changes = name + place + ", " + names_text(c, first);
-    if (divided.empty()) return changes;
-    return changes + "; " + short_names(verdicts_of(c, divided), " and ") +
-           " depends on the sequence";
-  }
+  if (!has_baseline) return name + place + ", " + names_text(c, first);
   if (first.size() > 1) return name + place;
   const MethodVerdict& next = first_other(c);
   return "the baseline " + name + " is best: " + next.method + " is " +
@@ -187,12 +205,11 @@ std::string shared_text(const Comparison& c) {
                        names_text(c, better));
   }
   const MethodVerdict& m = first_other(c);
-  const bool is_open = std::ranges::none_of(c.methods, &MethodVerdict::is_worse);
-  return fmt::format("{}: {} is {}{}",
+  const bool is_open = !m.fails_more && std::ranges::none_of(c.methods, &MethodVerdict::is_worse);
+  return fmt::format("{}: {} is {}",
                      is_open ? "nothing is decided" : "no method beats " + c.options.baseline,
                      m.method,
-                     names_text(c, {m.method}),
-                     needed_text(c, m));
+                     names_text(c, {m.method}));
 }
 
 /// "ate rotation rmse", without the relation translation and the axis 3d.
@@ -206,47 +223,18 @@ std::string score_text(const Comparison& c, const std::string& value) {
   return out + ", " + c.kind.times;
 }
 
-/// Without what is usual: "ate rotation, dense".
-std::string short_title(const Comparison& c) {
-  const std::string out = score_text(c, c.options.value == "rmse" ? "" : c.options.value);
-  return c.kind.protocol == "loopbench" ? out : out + ", " + c.kind.protocol;
-}
-
-std::string legend_of(const Comparison& c, const Verdict& v) {
-  const MethodVerdict& m = first_other(c);
-  std::string out = "change: ";
-  if (c.kind.better == metrics::Better::target) {
-    out += fmt::format("of |value - {:g}| ", c.kind.target);
-  }
-  out += "to " + c.options.baseline + " [%], typical over " + unit_text(c);
-  if (m.ratio && m.ratio->is_of_sequences) out += " (mean of the sequences)";
-  out += fmt::format("; {:g} %: interval, for all methods together", v.level);
-  const auto is_several = [](const VerdictGroup& g) { return g.methods.size() > 1; };
-  if (v.has_table() && std::ranges::any_of(v.groups, is_several)) {
-    out += "; other ranges: methods of a group differ";
-  }
-  if (v.groups.size() > 1) out += "; =: shares first place, >: significantly worse";
-  if (c.kind.times == "dense") out += "; dense: also between keyframes";
-  if (c.has_strata) {
-    out += "; runs of a sequence are independent (rank sums; compare --paired pairs equal names)";
-  } else if (c.sequences < c.groups) {
-    out += "; other sequences: --over sequences";
-  }
-  return out;
-}
-
 }  // namespace
 
-std::string percent_text(double percent) {
+std::string percent_text(double percent, int more) {
   const double size = std::abs(percent);
-  if (size >= 9.95) return fmt::format("{:.0f}", percent);
-  return size >= 0.95 || size == 0.0 ? fmt::format("{:.1f}", percent + 0.0)
-                                     : fmt::format("{:.2g}", percent);
+  if (size >= 9.95) return fmt::format("{:.{}f}", percent, more);
+  return size >= 0.95 || size == 0.0 ? fmt::format("{:.{}f}", percent + 0.0, 1 + more)
+                                     : fmt::format("{:.{}g}", percent, 2 + more);
 }
 
-std::string text(const Change& change, double narrow) {
-  const auto signed_text = [](double percent) {
-    return (percent > 0.0 ? "+" : "") + percent_text(percent);
+std::string text(const Change& change, double narrow, int more) {
+  const auto signed_text = [&](double percent) {
+    return (percent > 0.0 ? "+" : "") + percent_text(percent, more);
   };
   if (change.high - change.low <= narrow) return signed_text(0.5 * (change.low + change.high));
   const auto [first, last] = ordered(change, change.low + change.high <= 0.0);
@@ -263,9 +251,16 @@ std::string title(const Comparison& c) {
   return score_text(c, c.options.value) + ", " + c.kind.protocol;
 }
 
+std::string short_title(const Comparison& c) {
+  const std::string out = score_text(c, c.options.value == "rmse" ? "" : c.options.value);
+  return c.kind.protocol == "loopbench" ? out : out + ", " + c.kind.protocol;
+}
+
 std::string sentence(const Comparison& c) {
   if (c.methods.empty()) return why_no_comparison(c);
-  const auto is_equal = [](const MethodVerdict& m) { return m.ties > 0 && m.wins + m.losses == 0; };
+  const auto is_equal = [](const MethodVerdict& m) {
+    return m.ties > 0 && m.wins + m.losses + m.fails == 0;
+  };
   if (std::ranges::all_of(c.methods, is_equal)) return "all methods are equal";
   if (!c.can_show) return too_few_text(c);
   const std::string covered = coverage_text(c, true);
@@ -274,41 +269,6 @@ std::string sentence(const Comparison& c) {
   if (has_baseline && !c.is_best) return shared_text(c);
   return best_text(
       c, names_where(c, [](const MethodVerdict& m) { return !m.is_worse; }), has_baseline);
-}
-
-const Comparison* headline(const std::vector<Comparison>& all) {
-  const Comparison* out = nullptr;
-  int best = -1;
-  for (const Comparison& c : all) {
-    const bool is_ate =
-        c.kind.metric == "ate" && c.kind.relation == "translation" && c.kind.axis == "3d";
-    const int rank = (is_ate ? 2 : 0) + (c.kind.times == "dense" ? 1 : 0);
-    if (c.methods.size() < 2 || rank <= best) continue;
-    best = rank;
-    out = &c;
-  }
-  return out;
-}
-
-Verdict verdict_of(const Comparison& c, const std::vector<Comparison>& all) {
-  constexpr std::size_t kMostSequences = 6;
-  Verdict out;
-  out.sentence = short_title(c) + ": " + sentence(c) + ".";
-  if (c.methods.empty()) return out;
-  for (const MethodVerdict& m : c.methods) {
-    if (!m.ratio || m.method == c.options.baseline) continue;
-    for (const SequenceRatio& one : m.ratio->by_sequence) {
-      if (std::ranges::count(out.sequences, one.sequence) == 0)
-        out.sequences.push_back(one.sequence);
-    }
-  }
-  if (out.sequences.size() > kMostSequences || !c.can_show) out.sequences.clear();
-  out.cautions = cautions_of(c, all);
-  if (!c.can_show) return out;
-  out.groups = groups_of(c, out.sequences);
-  out.level = 100.0 * (1.0 - c.options.alpha);
-  out.legend = legend_of(c, out);
-  return out;
 }
 
 }  // namespace loopbench::harness

@@ -29,8 +29,9 @@ struct VerdictGroup {
 
 struct Verdict {
   std::string sentence;                ///< the score, what is best or decided, and by how much
-  std::vector<std::string> sequences;  ///< with a change each; empty for one, and for many
-  std::vector<VerdictGroup> groups;    ///< the first place first; empty if nothing can be tested
+  std::vector<std::string> sequences;  ///< with a change each, the largest of many; none of one
+  std::vector<VerdictGroup> groups;    ///< the first place first; empty for one run
+  bool has_places = false;             ///< false: too few runs to show anything
   std::vector<std::string> cautions;   ///< methods that are worse than the baseline somewhere
   std::string legend;                  ///< what the numbers are, and for what claims hold
   double level = 95.0;                 ///< of the intervals [%]
@@ -51,9 +52,9 @@ VerdictGroup group_of(const std::vector<const MethodVerdict*>& members,
                       const std::vector<std::string>& sequences,
                       const std::string& baseline);
 
-/// The groups: the first place, then methods whose changes, over all and on each sequence, differ
-/// by at most a point, or more if there would be more than five groups. Without the baseline,
-/// unless it shares the first place.
+/// The groups: the first place (if any method is worse), then methods whose changes, over all and
+/// on each sequence, differ by at most a point, or more if there would be more than five groups.
+/// Without the baseline, unless it shares the first place.
 std::vector<VerdictGroup> groups_of(const Comparison& comparison,
                                     const std::vector<std::string>& sequences);
 
@@ -65,6 +66,9 @@ std::vector<std::string> cautions_of(const Comparison& comparison,
 /// The sentence without the score: "dual is best, 14 % below raw (95 %: 11 to 16)".
 std::string sentence(const Comparison& comparison);
 
+/// Without what is usual: "ate rotation, dense".
+std::string short_title(const Comparison& comparison);
+
 /// "ate rotation rmse, dense, loopbench".
 std::string title(const Comparison& comparison);
 
@@ -73,11 +77,14 @@ std::string title(const Comparison& comparison);
 std::string short_names(const std::vector<const MethodVerdict*>& methods,
                         const std::string& last_separator);
 
-/// "44", "5.1", "-0.0012": at least two digits.
-std::string percent_text(double percent);
+/// "44", "5.1", "-0.0012": at least two digits, and `more`.
+std::string percent_text(double percent, int more = 0);
 
 /// "+12", or of a range wider than `narrow` points "-37 to -51", the end nearer to zero first.
-std::string text(const Change& change, double narrow);
+std::string text(const Change& change, double narrow, int more = 0);
+
+/// How many more digits distinguish the changes of the first place from those of other groups.
+int digits_of(const std::vector<VerdictGroup>& groups, double narrow);
 
 /// "12 % below raw (95 %: 8.1 to 15), p = 0.02": the difference of a method to the baseline.
 std::string result_text(const Comparison& comparison, const MethodVerdict& method);

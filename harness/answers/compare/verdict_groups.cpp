@@ -41,17 +41,20 @@ std::vector<VerdictGroup> groups_within(const Comparison& c,
   };
   std::vector<VerdictGroup> out;
   std::vector<const MethodVerdict*> members;  // of the last group
+  const bool has_worse = std::ranges::any_of(c.methods, &MethodVerdict::is_worse);
   for (const MethodVerdict& m : c.methods) {
-    if (m.is_worse && m.method == c.options.baseline) continue;
+    if ((m.is_worse || !has_worse) && m.method == c.options.baseline) continue;
     const VerdictGroup own = as_group({&m});
     const bool joins = !out.empty() && out.back().is_first == own.is_first &&
-                       (own.is_first || are_near(out.back(), own, points));
+                       ((own.is_first && has_worse) || are_near(out.back(), own, points));
     if (!joins) {
       members.clear();
       out.emplace_back();
     }
     members.push_back(&m);
     out.back() = as_group(members);
+    const auto is_own = [](const MethodVerdict* each) { return !each->parts.program.empty(); };
+    if (!has_worse && std::ranges::any_of(members, is_own)) out.back().name += " (own program)";
   }
   return out;
 }
@@ -131,14 +134,11 @@ VerdictGroup group_of(const std::vector<const MethodVerdict*>& members,
   for (const MethodVerdict* m : members) {
     out.methods.push_back(m->method);
     if (members.size() > 1 && m->method == baseline) continue;
-    const bool is_open = m->is_divided || m->is_contradicted;
-    has_interval = has_interval && (is_open || (m->ratio && m->ratio->has_interval));
+    has_interval = has_interval && m->ratio && m->ratio->has_interval;
     if (!m->ratio) continue;
     const Interval& typical = m->ratio->typical;
-    if (!is_open) {
-      widen(out.all, typical.estimate, typical.estimate);
-      widen(out.interval, typical.low, typical.high);
-    }
+    widen(out.all, typical.estimate, typical.estimate);
+    widen(out.interval, typical.low, typical.high);
     for (const SequenceRatio& one : m->ratio->by_sequence) {
       const auto found = std::ranges::find(sequences, one.sequence);
       if (found == sequences.end()) continue;

@@ -33,12 +33,24 @@ constexpr double kPoint = 1.0;  // [%]
 
 constexpr std::size_t kNoteWidth = kLineWidth - 2;
 
-std::string optional_text(const std::optional<Change>& change, double narrow) {
-  return change ? text(*change, narrow) : "-";
+std::string optional_text(const std::optional<Change>& change, double narrow, int more = 0) {
+  return change ? text(*change, narrow, more) : "-";
 }
 
-/// Leaves as many sequences as fit into `most` characters.
-void drop_last_sequences(Table& table, std::size_t most) {
+/// The largest logarithm of the ratios of a column.
+double largest_change(const Verdict& verdict, std::size_t sequence) {
+  double out = 0.0;
+  for (const VerdictGroup& group : verdict.groups) {
+    const auto& change = group.by_sequence[sequence];
+    if (!change) continue;
+    for (const double percent : {change->low, change->high})
+      out = std::max(out, std::abs(std::log1p(percent / 100.0)));
+  }
+  return out;
+}
+
+/// Leaves as many sequences as fit into `most` characters: those with the largest changes.
+void drop_sequences(Table& table, const Verdict& verdict, std::size_t most) {
   const auto line_width = [&] {
     std::size_t out = 1;
     for (std::size_t c = 0; c < table.headings.size(); ++c) {
@@ -48,10 +60,16 @@ void drop_last_sequences(Table& table, std::size_t most) {
     }
     return out;
   };
+  std::vector<double> changes;
+  for (std::size_t s = 0; s < verdict.sequences.size(); ++s)
+    changes.push_back(largest_change(verdict, s));
   std::size_t dropped = 0;
-  for (; line_width() > most && table.headings.size() > 3; ++dropped) {
-    table.headings.pop_back();
-    for (auto& line : table.lines) line.pop_back();
+  for (; line_width() > most && !changes.empty(); ++dropped) {
+    const auto least = std::ranges::min_element(changes.rbegin(), changes.rend()).base() - 1;
+    const auto column = 3 + (least - changes.begin());
+    changes.erase(least);
+    table.headings.erase(table.headings.begin() + column);
+    for (auto& line : table.lines) line.erase(line.begin() + column);
   }
   if (dropped > 0)
     table.notes.push_back(counted(dropped, "sequence") + " more: compare --format json");
@@ -68,7 +86,9 @@ Json groups_json(const Verdict& verdict) {
     for (std::size_t s = 0; s < verdict.sequences.size(); ++s) {
       by_sequence[verdict.sequences[s]] = change_json(group.by_sequence[s]);
     }
-    out.push_back({{"place", group.is_first ? "=" : ">"},
+    Json place;
+    if (verdict.has_places) place = group.is_first ? "=" : ">";
+    out.push_back({{"place", place},
                    {"name", group.name},
                    {"methods", group.methods},
                    {"change", change_json(group.all)},
@@ -137,19 +157,21 @@ std::string csv_field(const Json& value) {
 Table verdict_table(const Verdict& verdict, std::size_t width) {
   Table out{.title = verdict.sentence, .note_width = kNoteWidth};
   if (verdict.has_table()) {
+    const int more = digits_of(verdict.groups, kPoint);
     out.headings = {"group", "change", fmt::format("{:g} %", verdict.level)};
     for (const std::string& sequence : verdict.sequences) out.headings.push_back(sequence);
     for (const VerdictGroup& group : verdict.groups) {
       std::vector<TableCell>& line = out.lines.emplace_back();
-      line = {(group.is_first ? "= " : "> ") + group.name,
-              optional_text(group.all, kPoint),
+      const char* const place = group.is_first ? "= " : "> ";
+      line = {(verdict.has_places ? place : "") + group.name,
+              optional_text(group.all, kPoint, more),
               optional_text(group.interval, 0.0)};
       for (const auto& change : group.by_sequence) line.push_back(optional_text(change, kPoint));
     }
   }
   for (const std::string& caution : verdict.cautions) out.notes.push_back("! " + caution);
   if (!verdict.legend.empty()) out.notes.push_back(verdict.legend);
-  if (width > 0) drop_last_sequences(out, width);
+  if (width > 0) drop_sequences(out, verdict, width);
   return out;
 }
 
@@ -166,14 +188,18 @@ Table table_view(const Comparison& c) {
             remarks(c)};
   double largest = 0.0;
   for (const MethodVerdict& m : c.methods) largest = std::max(largest, std::abs(m.median));
-  for (const MethodVerdict& m : c.methods) {
-    const VerdictGroup group = group_of({&m}, {}, c.options.baseline);
+  std::vector<VerdictGroup> groups;
+  for (const MethodVerdict& m : c.methods) groups.push_back(group_of({&m}, {}, c.options.baseline));
+  const int more = digits_of(groups, 0.0);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const MethodVerdict& m = c.methods[i];
+    const VerdictGroup& group = groups[i];
     const bool is_baseline = m.method == c.options.baseline;
     const auto unless_baseline = [&](const std::string& text) { return is_baseline ? "" : text; };
     const char* const place = !c.can_show ? "" : m.is_worse ? "> " : "= ";
     out.lines.push_back({{place + m.method, c.is_best && !m.is_worse},
                          {median_text(c, m, decimals(largest))},
-                         {unless_baseline(optional_text(group.all, 0.0))},
+                         {unless_baseline(optional_text(group.all, 0.0, more))},
                          {unless_baseline(optional_text(group.interval, 0.0))},
                          {unless_baseline(fmt::format("{}/{}", m.wins, m.losses))},
                          {unless_baseline(m.p ? p_text(*m.p) : "-")}});

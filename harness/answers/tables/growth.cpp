@@ -89,13 +89,6 @@ OptionFamily family_of(const std::vector<const Entered*>& all) {
   return out;
 }
 
-/// Quantile 0.975 of Student's t: a table, then its expansion, to 1 %.
-double student(std::size_t degrees) {
-  constexpr double kTable[] = {12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306};
-  return degrees <= std::size(kTable) ? kTable[degrees - 1]
-                                      : 1.96 + 2.5 / static_cast<double>(degrees);
-}
-
 /// The finished and timed cells of a sequence and method.
 using CellsOf = std::map<std::pair<SharedText, SharedText>, std::vector<const CellRow*>>;
 
@@ -131,10 +124,6 @@ Growth growth_of(const OptionFamily& family,
 
 }  // namespace
 
-std::string law_text(const std::optional<PowerLaw>& law) {
-  return law ? fmt::format("O(n^{:.2f} \u00b1 {:.2f})", law->exponent, law->half_width) : "-";
-}
-
 std::vector<OptionFamily> sequence_families(const std::vector<CellRow>& cells) {
   std::vector<std::pair<std::string, std::string>> all;
   std::set<SharedText> seen;
@@ -163,38 +152,6 @@ std::vector<OptionFamily> option_families(
   return out;
 }
 
-std::optional<PowerLaw> fitted_power(const std::vector<double>& sizes,
-                                     const std::vector<double>& values) {
-  if (std::set<double>(sizes.begin(), sizes.end()).size() < 3) return std::nullopt;
-  const auto is_positive = [](double x) { return x > 0.0 && std::isfinite(x); };
-  if (!std::ranges::all_of(sizes, is_positive) || !std::ranges::all_of(values, is_positive))
-    return std::nullopt;
-  const auto n = static_cast<double>(sizes.size());
-  double x_mean = 0.0, y_mean = 0.0, mean = 0.0, xx = 0.0, xy = 0.0;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    x_mean += std::log(sizes[i]) / n;
-    y_mean += std::log(values[i]) / n;
-    mean += values[i] / n;
-  }
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const double x = std::log(sizes[i]) - x_mean;
-    xx += x * x;
-    xy += x * (std::log(values[i]) - y_mean);
-  }
-  PowerLaw out;
-  out.exponent = xy / xx;
-  out.factor = std::exp(y_mean - out.exponent * x_mean);
-  double of_logs = 0.0, plain = 0.0;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const double law = out.factor * std::pow(sizes[i], out.exponent);
-    of_logs += std::pow(std::log(values[i] / law), 2);
-    plain += std::pow(values[i] - law, 2);
-  }
-  out.half_width = student(sizes.size() - 2) * std::sqrt(of_logs / (n - 2.0) / xx);
-  out.rms = std::sqrt(plain / n) / mean;
-  return out;
-}
-
 std::vector<Growth> growths(const std::vector<CellRow>& cells) {
   CellsOf timed;
   NameOrder methods;
@@ -218,17 +175,19 @@ std::vector<Growth> growths(const std::vector<CellRow>& cells) {
 }
 
 Table growth_table(const std::vector<CellRow>& cells) {
-  Table out{"growth of the costs with the size n",
-            {"method",
-             "sequences",
-             "n",
-             "CPU time",
-             "CPU at largest n [ms]",
-             "peak memory",
-             "memory at largest n [MB]"},
-            {},
-            {"exponents fitted to the logarithms of the median over the repeats of each size, with "
-             "95 % intervals; the peak memory contains that of the program"}};
+  Table out{
+      "growth of the costs with the size n",
+      {"method",
+       "sequences",
+       "n",
+       "CPU time",
+       "CPU at largest n [ms]",
+       "peak memory",
+       "memory at largest n [MB]"},
+      {},
+      {"exponents of n beside a fixed cost, fitted to the medians over the repeats of each size, "
+       "with 95 % intervals if there are four sizes or more; the peak memory contains that of "
+       "the program"}};
   for (const Growth& each : growths(cells)) {
     out.lines.push_back(
         {each.method,

@@ -1,10 +1,10 @@
 /// How the costs of methods grow with the size of their input.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "harness/answers/tables/power_law.hpp"
 #include "harness/answers/tables/table.hpp"
 #include "harness/sweep/model/record.hpp"
 
@@ -28,21 +28,6 @@ std::vector<OptionFamily> option_families(
 
 /// Those of the sequences of these cells.
 std::vector<OptionFamily> sequence_families(const std::vector<CellRow>& cells);
-
-/// y = factor * size^exponent, fitted to logarithms.
-struct PowerLaw {
-  double factor = 0.0;
-  double exponent = 0.0;
-  double half_width = 0.0;  ///< of the 95 % interval of the exponent, by Student's t
-  double rms = 0.0;         ///< of y minus the law, relative to the mean of y
-};
-
-/// None for fewer than three different sizes, or values that are not positive. O(n).
-std::optional<PowerLaw> fitted_power(const std::vector<double>& sizes,
-                                     const std::vector<double>& values);
-
-/// "O(n^1.02 ± 0.05)"; "-" without a law.
-std::string law_text(const std::optional<PowerLaw>& law);
 
 /// Costs of a method on sequences that differ in size: medians over the repeats of each sequence.
 struct Growth {

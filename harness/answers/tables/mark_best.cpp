@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -9,6 +10,7 @@
 
 #include "harness/answers/compare/verdict.hpp"
 #include "harness/answers/tables/table_numbers.hpp"
+#include "harness/sweep/text/counted.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -68,32 +70,61 @@ std::string why_none_is_best(const Comparison& c) {
   return c.can_show ? coverage_text(c, true) : cannot_show_text(c);
 }
 
+/// Whether the means of the best methods are before those of all others.
+bool do_means_agree(const std::vector<TableCell*>& best,
+                    const std::vector<TableCell*>& others,
+                    const ScoreKind& kind) {
+  const auto loss = [&](const TableCell* cell) {
+    if (kind.better == metrics::Better::target) return std::abs(*cell->value - kind.target);
+    return kind.better == metrics::Better::higher ? -*cell->value : *cell->value;
+  };
+  const auto is_before_others = [&](const TableCell* one) {
+    return one->value && std::ranges::none_of(others, [&](const TableCell* other) {
+             return other->value && loss(other) < loss(one);
+           });
+  };
+  return std::ranges::all_of(best, is_before_others);
+}
+
+bool is_comparable(const Lane& lane) { return lane.observed && lane.entries.size() > 1; }
+
 }  // namespace
 
 void mark_best(Table& out, const TableNumbers& table, const TableSpec& spec, bool along_columns) {
   bool is_marked = false;
   std::string why_none;
   std::vector<Lane> lanes = lanes_of(table, spec, along_columns);
+  const auto tested = static_cast<std::size_t>(std::ranges::count_if(lanes, is_comparable));
+  const CompareOptions options;
   for (std::size_t l = 0; l < lanes.size(); ++l) {
     Lane& lane = lanes[l];
-    if (!lane.observed || lane.entries.size() < 2) continue;
+    if (!is_comparable(lane)) continue;
     std::vector<Observations> scores = lane.observed->build();
     const bool is_one = scores.size() == 1 &&
                         std::ranges::none_of(scores[0].methods, [&](const std::string& method) {
                           return lane.several.contains(method);
                         });
     if (!is_one) continue;
-    const Comparison c = standings(std::move(scores[0]), {.value = spec.value});
+    const Comparison c =
+        standings(std::move(scores[0]),
+                  {.value = spec.value, .alpha = options.alpha / static_cast<double>(tested)});
     if (why_none.empty()) why_none = why_none_is_best(c);
+    if (!c.is_best) continue;
+    std::vector<TableCell*> best, others;
     for (const MethodVerdict& m : c.methods) {
-      if (!c.is_best || m.is_worse) continue;
       const std::size_t entry = lane.entries.at(m.method);
-      out.lines[along_columns ? entry : l][1 + (along_columns ? l : entry)].is_best = true;
-      is_marked = true;
+      TableCell& cell = out.lines[along_columns ? entry : l][1 + (along_columns ? l : entry)];
+      (m.is_worse ? others : best).push_back(&cell);
     }
+    if (!do_means_agree(best, others, c.kind)) continue;
+    for (TableCell* cell : best) cell->is_best = true;
+    is_marked = true;
   }
   if (is_marked) {
-    out.notes.insert(out.notes.begin(), "marked: the methods that compare calls best");
+    const std::string lane = along_columns ? "column" : "row";
+    out.notes.insert(out.notes.begin(),
+                     "marked: shown to be better than each other method of the " + lane +
+                         (tested == 1 ? "" : ", corrected for " + counted(tested, lane)));
   } else if (!why_none.empty()) {
     out.notes.push_back("no best value is marked: " + why_none);
   }

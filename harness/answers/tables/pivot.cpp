@@ -122,18 +122,22 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   add_error_count(table, column, record);
   entry.is_gain = record.kind->metric == "gain" && spec.value != "count";
   entry.is_oracle = record.cell->oracle;
-  entry.values.push_back(
-      {run, table.group_of_run[run], record.cell->method, value(record, spec.value)});
+  entry.values.push_back({run,
+                          table.group_of_run[run],
+                          record.cell->method,
+                          record.cell->sequence,
+                          value(record, spec.value)});
 }
 
 /// Adds a note on how the numbers were averaged, and facts for a caption.
 void explain_averages(Table& out, const TableNumbers& table, const TableSpec& spec) {
   std::size_t most = 1;
-  bool has_gain = false;
+  bool has_gain = false, is_uneven = false;
   for (const std::vector<TableEntry>& row : table.entries) {
     for (const TableEntry& entry : row) {
       most = std::max(most, entry.kept().size());
       has_gain = has_gain || entry.is_gain;
+      is_uneven = is_uneven || (!entry.is_gain && entry.is_uneven());
     }
   }
   std::set<std::string> times;
@@ -145,6 +149,7 @@ void explain_averages(Table& out, const TableNumbers& table, const TableSpec& sp
       "{}; times: {}; runs per number: at most {}", spec.value, fmt::join(times, ", "), most);
   if (most < 2) return;
   std::string text = "each number is the mean of up to " + std::to_string(most) + " cells";
+  if (is_uneven) text += ", in which each sequence counts once";
   if (spec.plus_minus) text += ", \u00b1 their standard deviation";
   if (has_gain) text += "; gain is 1 - the geometric mean ratio to the baseline";
   out.notes.insert(out.notes.begin(), text);

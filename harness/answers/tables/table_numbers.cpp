@@ -22,6 +22,20 @@ double mean_gain(const TableEntry& entry) {
   return 100.0 * (1.0 - std::exp(metrics::mean(groups)));
 }
 
+std::map<SharedText, std::vector<double>> kept_by_sequence(const TableEntry& entry) {
+  std::map<SharedText, std::vector<double>> out;
+  for (const TableEntry::Value& one : entry.values) {
+    if (one.is_kept) out[one.sequence].push_back(one.value);
+  }
+  return out;
+}
+
+double mean_of_sequences(const TableEntry& entry) {
+  std::vector<double> means;
+  for (const auto& [sequence, own] : kept_by_sequence(entry)) means.push_back(metrics::mean(own));
+  return metrics::mean(means);
+}
+
 /// Removes the runs that are not in `others`.
 void keep_only(RunSet& runs, const RunSet& others) {
   std::erase_if(runs, [&](std::size_t run) { return !others.contains(run); });
@@ -151,13 +165,20 @@ std::vector<double> TableEntry::kept() const {
   return out;
 }
 
+bool TableEntry::is_uneven() const {
+  const auto all = kept_by_sequence(*this);
+  return std::ranges::any_of(
+      all, [&](const auto& each) { return each.second.size() != all.begin()->second.size(); });
+}
+
 std::optional<double> TableEntry::average() const {
   const std::vector<double> all = kept();
   // One zero error would make the geometric mean zero.
   const auto zeros = std::ranges::count(all, 100.0);
   const bool has_no_mean = is_gain && zeros > 0 && zeros < std::ssize(all);
   if (all.empty() || has_no_mean) return std::nullopt;
-  const double out = is_gain ? mean_gain(*this) : metrics::mean(all);
+  double out = is_gain ? mean_gain(*this) : metrics::mean(all);
+  if (!is_gain && is_uneven()) out = mean_of_sequences(*this);
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 

@@ -27,6 +27,7 @@ struct TableEntry {
     std::size_t run = 0;
     std::size_t group = 0;
     SharedText method;
+    SharedText sequence;
     double value = 0.0;
     bool is_kept = true;  ///< averaged
   };
@@ -45,8 +46,10 @@ struct TableEntry {
 
   /// The values that are averaged.
   std::vector<double> kept() const;
-  /// The mean; for gains 1 - the geometric mean ratio, over groups as in a verdict. nullopt if that
-  /// is not a number.
+  /// Whether its sequences have different numbers of averaged values.
+  bool is_uneven() const;
+  /// The mean, in which each sequence counts once; for gains 1 - the geometric mean ratio, over
+  /// groups. nullopt if that is not a number.
   std::optional<double> average() const;
   /// Sample standard deviation of the averaged values; nullopt for fewer than two.
   std::optional<double> deviation() const;
@@ -91,9 +94,10 @@ std::string fields_joined(const Record& record,
 /// runs. Returns the note about it; empty if all entries finished the same runs.
 std::string keep_common_runs(TableNumbers& table, bool along_columns);
 
-/// Marks the methods that `compare` calls best (with any baseline) among the records of each column
-/// (or row) of the finished table `out`, and adds a note about it or the reason why none is marked.
-/// A column with several scores, or with several entries of a method, has no marks.
+/// Marks the methods that are best among the records of each column (or row) of the finished table
+/// `out`, with the test of `compare` for any baseline, corrected for the number of columns (or
+/// rows), and adds a note about it or the reason why none is marked. No mark for a column with
+/// several scores, with several entries of a method, or with a smaller mean than that of the best.
 void mark_best(Table& out, const TableNumbers& table, const TableSpec& spec, bool along_columns);
 
 }  // namespace loopbench::harness
