@@ -146,9 +146,9 @@ TEST_F(IsolatedDatasets, MessagesOfDatasetsAreCutAndNotEmpty) {
   };
   std::string much;
   much.resize(20'000'000, 'z');
-  EXPECT_TRUE(message("long", much).ends_with("z ... (19990000 more bytes)"));
-  EXPECT_EQ(message("empty", ""), "empty: loading threw an exception without a message");
-  EXPECT_EQ(message("usual", "why"), "why");
+  EXPECT_TRUE(message("long", much).ends_with("z ... (19990000 more bytes) (c.yaml:1)"));
+  EXPECT_EQ(message("empty", ""), "empty: loading threw an exception without a message (c.yaml:1)");
+  EXPECT_EQ(message("usual", "why"), "why (c.yaml:1)");
 }
 
 TEST(Printable, ControlCharactersOfAStreamDoNotReachTheTerminal) {

@@ -99,7 +99,7 @@ TEST_F(Isolated, ABrokenDatasetEndsItBeforeTheFirstCell) {
       line_after("broken", [] { throw InputError("broken.txt: no such file"); }));
   EXPECT_EQ(refusal_of(
                 [&] { run("datasets: [line, broken]\nmethods: [straight]\nmetrics: [ate]\n", 2); }),
-            "broken.txt: no such file");
+            "broken.txt: no such file (c.yaml:1)");
   EXPECT_TRUE(results_.empty());
 }
 

@@ -105,7 +105,7 @@ TEST(Marks, AreThoseOfCompareWhateverTheRecords) {
       expect_marks_of_compare(records);
     }
   }
-  EXPECT_GT(marks, 100u);
+  EXPECT_GT(marks, 50u);  // fewer than compare calls best: corrected for the columns
   EXPECT_GT(declined, 20u);
 }
 

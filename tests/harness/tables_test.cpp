@@ -128,7 +128,7 @@ TEST(Formats, LatexHasTheSentenceOfATableWithoutColumns) {
 
 TEST(Formats, EscapeNamesAndMarkTheBest) {
   const std::vector<Table> tables = marked();
-  const std::string notes = "marked: the methods that compare calls best\n";
+  const std::string notes = "marked: shown to be better than each other method of the column\n";
   EXPECT_EQ(markdown(tables),
             "### dense\n\n"
             "| method             |   ate [m] |\n"
