@@ -56,7 +56,7 @@ std::vector<std::string> rules_of_runs(const std::vector<std::string>& rules, bo
   return out;
 }
 
-CountedNote counted(std::vector<const RunNote*> group, const StoredNotes& all) {
+CountedNote counted_note(std::vector<const RunNote*> group, const StoredNotes& all) {
   CountedNote out;
   const auto first_number = [](const RunNote* one) {
     return one->note.numbers.empty() ? 0.0 : one->note.numbers.front().value;
@@ -95,32 +95,31 @@ std::vector<CountedNote> counted_notes(const std::filesystem::path& store,
     groups[place->second].second.push_back(&one);
   }
   std::vector<CountedNote> out;
-  for (auto& [key, group] : groups) out.push_back(counted(std::move(group), all));
+  for (auto& [key, group] : groups) out.push_back(counted_note(std::move(group), all));
   std::ranges::stable_sort(
       out, std::greater(), [](const CountedNote& each) { return each.note.severity; });
   return out;
 }
 
-std::string text(const CountedNote& counted) {
+std::string text(const CountedNote& own) {
   constexpr std::size_t kMost = 3;  // names of sequences
-  const std::string sentence = text(counted.note);
-  if (counted.runs == 1) {
-    const std::string method = counted.method.empty() ? "" : " / " + counted.method;
-    return counted.example + method + ": " + sentence;
+  const std::string sentence = text(own.note);
+  if (own.runs == 1) {
+    const std::string method = own.method.empty() ? "" : " / " + own.method;
+    return own.example + method + ": " + sentence;
   }
-  std::string whose = counted.method.empty() ? "" : " of " + counted.method;
-  if (!counted.sequences.empty() && counted.method.empty()) {
-    std::vector<std::string> names = counted.sequences;
+  std::string whose = own.method.empty() ? "" : " of " + own.method;
+  if (!own.sequences.empty() && own.method.empty()) {
+    std::vector<std::string> names = own.sequences;
     const std::size_t more = names.size() - std::min(names.size(), kMost);
     names.resize(names.size() - more);
     whose = fmt::format(
         " ({}{})", fmt::join(names, ", "), more == 0 ? "" : fmt::format(" and {} more", more));
   }
-  const std::string count = counted.runs == counted.of
-                                ? fmt::format("all {} runs", counted.of)
-                                : fmt::format("{} of {} runs", counted.runs, counted.of);
-  const bool varies = !counted.note.numbers.empty();
-  return count + whose + (varies ? ", for example " + counted.example : "") + ": " + sentence;
+  const std::string count = own.runs == own.of ? fmt::format("all {} runs", own.of)
+                                               : fmt::format("{} of {} runs", own.runs, own.of);
+  const bool varies = !own.note.numbers.empty();
+  return count + whose + (varies ? ", for example " + own.example : "") + ": " + sentence;
 }
 
 std::vector<std::string> texts(const std::vector<CountedNote>& notes, Severity least) {
