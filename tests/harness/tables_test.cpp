@@ -154,7 +154,7 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
         "a\\textbar{}b\\_\\allowbreak{}\\&\\%\\textless{}\\char34{}x\\char34{} \\_\\allowbreak{}c "
         "& "
         "\\textbf{0.135} \\\\\nraw & 1.035 \\\\\n",
-        "marked: the methods that compare calls best\\par\n"}) {
+        "marked: shown to be better than each other method of the column\\par\n"}) {
     EXPECT_NE(paper.find(part), std::string::npos) << part << paper;
   }
 }

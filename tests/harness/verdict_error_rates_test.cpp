@@ -67,10 +67,11 @@ TEST(VerdictErrorRates, AreLowForLoneAndFrequentFailures) {
   const Truth lone{
       .effects = {0.0, -0.69}, .groups = 8, .runs_in_group = 20, .failures = {0.0, 0.05}};
   const ErrorRates rates = error_rates(lone, shapes()[0], 20, 11);
-  EXPECT_EQ(rates.claimed, 1.0);
-  EXPECT_LT(rates.found, 0.1);  // it fails on runs that the other one solves
+  EXPECT_GT(rates.claimed, 0.5);  // no claim where it is shown to fail more often
+  EXPECT_LT(rates.found, 0.1);    // it fails on runs that the other one solves
   const Truth hard{.effects = {0.0, 0.18}, .groups = 20, .hard = 0.33, .fails_hard = 1.0};
-  EXPECT_GT(error_rates(hard, shapes()[0], kRepeats, 11).found, 0.8);
+  // Failures have no number: only the runs that both solve show the difference.
+  EXPECT_GT(error_rates(hard, shapes()[0], kRepeats, 11).found, 0.25);
 }
 
 TEST(IntervalCoverage, IsNominalFromSixObservationsOn) {

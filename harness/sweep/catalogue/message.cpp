@@ -29,14 +29,14 @@ void add_pose(Values& out, const Pose& pose) {
   for (const double x : pose.rotation.coeffs()) out.push_back(x);
 }
 
-void add_rows(Values& out, const Trajectory& poses) {
+void append_rows(Values& out, const Trajectory& poses) {
   for (const StampedPose& pose : poses) {
     out.push_back(pose.stamp);
     add_pose(out, pose.world_from_body);
   }
 }
 
-void add_rows(Values& out, const std::vector<Edge>& edges) {
+void append_rows(Values& out, const std::vector<Edge>& edges) {
   for (const Edge& edge : edges) {
     out.push_back(static_cast<double>(edge.from));
     out.push_back(static_cast<double>(edge.to));
@@ -72,12 +72,12 @@ std::string request(nlohmann::json text,
   values.reserve(size);
   for (const auto& [name, each] : poses) {
     text["arrays"].push_back({name, each->size(), kPoseColumns});
-    add_rows(values, *each);
+    append_rows(values, *each);
   }
   bool similarity = false;
   for (const auto& [name, each] : edges) {
     text["arrays"].push_back({name, each->size(), kEdgeColumns});
-    add_rows(values, *each);
+    append_rows(values, *each);
     similarity = similarity ||
                  std::ranges::any_of(*each, [](const Edge& edge) { return edge.scale != 1.0; });
   }
