@@ -175,7 +175,7 @@ void print_options(const Item& item) {
 void print_names(const std::vector<Item>& rarely_used) {
   std::string names;
   for (const Item& item : rarely_used) names += (names.empty() ? "" : ", ") + item.name;
-  if (!names.empty()) fmt::print("{:<22} {}\n", "rarely used", names);
+  if (!names.empty()) print_summary({"rarely used", "", names, {}});
 }
 
 /// The summary of each entry; if `with_options`, its options, too. Protocols share theirs.
