@@ -237,7 +237,7 @@ class Evaluation(unittest.TestCase):
                 np.testing.assert_allclose(found[:, 0], stamps, atol=1e-6, err_msg=name)
                 np.testing.assert_allclose(found[:, 1:4], rows[:, 1:4], atol=1e-6, err_msg=name)
             with open(folder + "/bad.txt", "w") as bad:
-                bad.write("0 1 2 3 0 0 0 1\n0 1 2 3 0 0 0 1\n")
+                bad.write("0 1 2 3 0 0 0 1\n0 4 2 3 0 0 0 1\n")  # equal poses would be accepted
             with self.assertRaisesRegex(ValueError, r"bad.txt:2: "):
                 loopbench.read_trajectory(folder + "/bad.txt")
             self.assertEqual(len(loopbench.read_trajectory(folder + "/bad.txt", repeats="keep_last")), 1)
