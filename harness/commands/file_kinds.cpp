@@ -77,7 +77,8 @@ constexpr std::array<std::string_view, 2> kBeginnings{
     "reference  ", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"loopbench "};
 
 /// Parts of texts and JSON of results that other files do not have.
-constexpr std::array<std::string_view, 7> kParts{"\"loopbench\": \"",
+constexpr std::array<std::string_view, 8> kParts{"<!-- source: ",
+                                                 "\"loopbench\": \"",
                                                  "\"executable\": \"loopbench\"",
                                                  "| estimate ",
                                                  " regressions, ",

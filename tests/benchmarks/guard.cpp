@@ -215,8 +215,11 @@ void guard_stores(Guard& guard, const Programs& programs) {
       const auto store = programs.folder / fmt::format("{}-{}", methods, size);
       if (!std::filesystem::exists(store))
         test::cpu_of({programs.synthetic_sweep, store, std::to_string(size), "one", methods});
-      std::vector<std::string> words{
-          programs.loopbench, command, store, "-o", programs.folder / "page"};
+      std::vector<std::string> words{programs.loopbench,
+                                     command,
+                                     store,
+                                     "-o",
+                                     programs.folder / (std::string(command) + "_output")};
       if (words[1] == "report") words.insert(words.end(), {"--size", "100"});
       return test::cpu_of(words) / size;
     };
