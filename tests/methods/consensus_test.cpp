@@ -82,7 +82,7 @@ void expect_equal_densities(const Problem& problem) {
   ASSERT_TRUE(eliminated.condition_on(order));
   EXPECT_NEAR(eliminated.log_odds(),
               LoopLikelihood(model, all).log_odds(at),
-              1e-7 * problem.keyframes.size());
+              1e-7 * static_cast<double>(problem.keyframes.size()));
   // Without each loop: by elimination of all others.
   const JointLoops<G> joint(model, at, all);
   const std::vector<LeftOut<G>> without = joint.left_out();
