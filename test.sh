@@ -24,7 +24,7 @@ lint() {
   cmake --preset lint -DLOOPBENCH_BUILD_TESTS=ON -DLOOPBENCH_TEST_ALL=ON >/dev/null
   # Long ones first, so that no processor waits at the end.
   { find build/lint -path '*/Unity/*.cxx' -not -regex '.*/tests/\(benchmarks\|fuzz\|scale\|studies\)/.*' -printf '%s %p\n'
-    printf '0 %s\n' "$PWD"/datasets/{compressed/decompress,formats/geodetic}.cpp; } |  # not in a batch
+    printf '0 %s\n' "$PWD"/datasets/{compressed/decompress,columns/geodetic}.cpp; } |  # not in a batch
     sort -rn | cut -d ' ' -f 2 |
     xargs -P "$(nproc)" -n 1 clang-tidy -p build/lint --quiet 2>/dev/null
 }
