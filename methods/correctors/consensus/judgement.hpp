@@ -43,6 +43,16 @@ struct EstimatedFactors {
   bool is_rotation_known = false;
 };
 
+/// A step of the odometry that is wrong: the closures that agree exclude its stated deviations
+/// under the estimated factors, so that its own are `inflation` times as large.
+struct FreedStep {
+  std::size_t from = 0;    ///< keyframe; the step ends at the next
+  double inflation = 0.0;  ///< 10, 30 or 100; infinity: the motion is unknown, as in a new map
+  double log_odds = 0.0;   ///< of the explanation with this step freed over the best without [-]
+  double metres = 0.0;     ///< error of the odometry against the solution with the step freed
+  double degrees = 0.0;    ///< of the rotation
+};
+
 enum class ConsensusOutcome {
   decided,
   few,    ///< the closures that agree are not enough evidence
@@ -59,6 +69,7 @@ inline auto choices(ConsensusOutcome) {
 struct ClosureJudgement {
   ConsensusOutcome outcome = ConsensusOutcome::none;
   std::vector<JudgedClosure> closures;  ///< one per closure of the problem
+  std::vector<FreedStep> steps;         ///< ascending in `from`; empty if the odometry is right
   EstimatedFactors factors;
   double evidence = 0.0;         ///< log odds of the closures that agree over uniform ones [-]
   double evidence_needed = 0.0;  ///< to decide, and above that of a rival [-]
