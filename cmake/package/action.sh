@@ -1,13 +1,21 @@
 #!/usr/bin/env bash
 # action.sh CONFIG FOLDER [BASELINE] [DATA]: runs CONFIG, checks it against BASELINE, and writes report.html,
-# comment.md (summary table, verdicts, result of the check), badge.svg and the results into FOLDER. Exits with the code
-# of the run, else of the check. LOOPBENCH names another program.
+# comment.md (summary table, verdicts, result of the check), badge.svg and the results into FOLDER. comment.md has at most
+# 60,000 bytes, because CI systems reject longer comments; summary.md, errors.txt and check.txt are complete. Exits with
+# the code of the run, or with that of the check if the run succeeded. LOOPBENCH names another program.
 set -euo pipefail
 config=$1 folder=$2 baseline=${3:-} data=${4:-}
 loopbench=${LOOPBENCH:-loopbench}
 mkdir -p "$folder"
 arguments=()
 [[ -n $data ]] && arguments=(--data "$data")
+
+# shortened MOST FILE: standard input up to MOST bytes, in whole lines. FILE has all of it.
+shortened() {
+  LC_ALL=C awk -v most="$1" -v file="$2" '
+    (bytes += length($0) + 1) <= most { print; next }
+    !is_full { is_full = 1; printf "\n(shortened: %s in the artifact is complete)\n", file }'
+}
 
 ran=0
 "$loopbench" run "$config" --out "$folder/results" "${arguments[@]}" >"$folder/summary.md" 2>"$folder/errors.txt" ||
@@ -23,18 +31,18 @@ fi
 {
   echo "## loopbench: $config"
   echo
-  sed '/^next:$/,$d' "$folder/summary.md"
+  sed '/^next:$/,$d' "$folder/summary.md" | shortened 24000 summary.md
   if [[ -s $folder/errors.txt ]]; then
     printf '\n```\n'
-    head -50 "$folder/errors.txt"
+    shortened 4000 errors.txt <"$folder/errors.txt"
     printf '```\n'
   fi
   if [[ -s $folder/check.md ]]; then
     printf '\n### Comparison with %s\n\n' "$baseline"
-    cat "$folder/check.md"
+    shortened 30000 check.txt <"$folder/check.md"
   elif [[ -s $folder/check.txt ]]; then
     printf '\n### Comparison with %s\n\n```\n' "$baseline"
-    cat "$folder/check.txt"
+    shortened 30000 check.txt <"$folder/check.txt"
     printf '```\n'
   fi
   printf '\nThe report is attached to this run: loopbench-report.\n'

@@ -6,6 +6,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/answers/gate/gate.hpp"
 #include "harness/answers/notes/counted_notes.hpp"
+#include "harness/answers/tables/gate_comment.hpp"
 #include "harness/answers/tables/gate_table.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
@@ -122,7 +123,9 @@ int check_store(const CheckArguments& arguments) {
   }
   report.above = texts(counted_notes(arguments.store), Severity::decisive);
   const std::string text = markdown(report, baseline.snapshot.sweep);
-  if (!arguments.markdown.empty()) write_file(arguments.markdown, text);
+  if (!arguments.markdown.empty()) {
+    write_file(arguments.markdown, comment(report, baseline.snapshot.sweep));
+  }
   if (!arguments.junit.empty()) write_file(arguments.junit, junit(report, baseline.snapshot.sweep));
   const bool is_taken = is_dash(arguments.junit) || is_dash(arguments.markdown);
   print_summary(is_taken, text);
@@ -143,9 +146,14 @@ void add_check(CLI::App& app, int& exit_code) {
                                     ->required();
   writes(
       command, add(command, "--junit FILE", a.junit, "JUnit XML file to write"), FileKind::printed);
-  writes(command,
-         add(command, "--markdown FILE", a.markdown, "Markdown report to write"),
-         FileKind::printed);
+  writes(
+      command,
+      add(command,
+          "--markdown FILE",
+          a.markdown,
+          "Markdown summary to write, short enough for a comment: the findings by method and the "
+          "20 worst cells"),
+      FileKind::printed);
   updates(command,
           baseline,
           FileKind::baseline,

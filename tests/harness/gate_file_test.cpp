@@ -1,4 +1,5 @@
 /// Baseline files, and reports of the gate as text.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/answers/gate/gate.hpp"
+#include "harness/answers/tables/gate_comment.hpp"
 #include "harness/answers/tables/gate_table.hpp"
 #include "tests/support/gate_snapshot.hpp"
 #include "tests/support/refusal_of.hpp"
@@ -137,6 +139,51 @@ TEST(GateText, IsMarkdownAndJUnit) {
             "- 0 regressions, 0 improvements, 0 new cells in 16 cells and 16 scores\n"
             "- limit of all scores: rmse: relative 0.001, absolute 1e-06 (default: rmse, max: "
             "relative 0.001, absolute 1e-06)\n");
+}
+
+/// A sweep of 64 repeats, 9 methods and 12 scores, all of which got worse, one more than the others.
+GateReport worse_everywhere(const std::string& suffix) {
+  Baseline before;
+  before.limits = {rmse_alone()};
+  before.snapshot.sweep = "long" + suffix;
+  for (int repeat = 0; repeat < 64; ++repeat) {
+    for (int method = 0; method < 9; ++method) {
+      Record record = ate(repeat, "method_" + std::to_string(method) + suffix, 1.0);
+      for (int score = 0; score < 12; ++score) {
+        record.kind.edit().metric = "score_" + std::to_string(score) + suffix;
+        before.snapshot.records.push_back(record);
+      }
+    }
+  }
+  Snapshot now = before.snapshot;
+  for (std::size_t i = 0; i < now.records.size(); ++i)
+    rmse(now, i) *= i == 4000 ? 3.0 : 1.1 + 1e-5 * static_cast<double>(i);
+  return check(before, now);
+}
+
+TEST(GateText, IsShortInAComment) {
+  const GateReport report = worse_everywhere("");
+  EXPECT_EQ(report.findings.size(), 64u * 9 * 12);
+  const std::string text = comment(report, "long");
+  EXPECT_LT(text.size(), 15'000u);
+  EXPECT_GT(markdown(report, "long").size(), 500'000u);
+  EXPECT_THAT(text, StartsWith("### long: FAILED\n\n| method "));
+  for (int method = 0; method < 9; ++method) {
+    EXPECT_THAT(text, HasSubstr(fmt::format("| method_{} |    64 |         768 |", method)));
+  }
+  EXPECT_THAT(text, HasSubstr("### The worst 20 of 576 cells with findings\n\n| cell "));
+  // Record 4000 is score 4 of method 0 in repeat 37; its cell has eleven further findings.
+  const std::string worst =
+      "score_4 translation 3d, dense, loopbench: rmse 3 m, was 1 (+200 %, limit 0.001) |   11 |";
+  EXPECT_THAT(text, HasSubstr(worst));
+  EXPECT_LT(text.find(worst), text.find("score_11 "));
+  EXPECT_THAT(text, HasSubstr("---: |\n| room (repeat 37) / method_0 | regression | "));
+  EXPECT_LT(comment(worse_everywhere(std::string(5000, 'x')), "long").size(), 30'000u);
+}
+
+TEST(GateText, IsCompleteInACommentOnFewFindings) {
+  const GateReport report = after([](Snapshot& now) { rmse(now, 3) *= 2.0; });
+  EXPECT_EQ(comment(report, "quick"), markdown(report, "quick"));
 }
 
 TEST(GateText, NamesTheReasonOfACellThatFails) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
@@ -89,8 +90,9 @@ class Checker {
                       100.0 * most));
     }
     for (const CellRecords& cell : cells) {
-      if (now_.contains(name(cell)))
-        find(Finding::Kind::added, name(cell), "", "not in the baseline");
+      if (!now_.contains(name(cell))) continue;
+      method_ = cell.front().cell->method;
+      find(Finding::Kind::added, name(cell), "", "not in the baseline");
     }
     if (unlimited_ > 0) {
       report_.notes.push_back(
@@ -112,8 +114,9 @@ class Checker {
   void find(Finding::Kind kind,
             const std::string& cell,
             const std::string& score,
-            const std::string& what) {
-    report_.findings.push_back({kind, cell, score, what});
+            const std::string& what,
+            double change = std::numeric_limits<double>::infinity()) {
+    report_.findings.push_back({kind, cell, score, what, method_, change});
   }
 
   /// Whether both have a number.
@@ -148,6 +151,8 @@ class Checker {
     if (found == now_.end() && extent_ == GateExtent::part) return;
     ++report_.cells;
     report_.names.push_back(label);
+    method_ = before.front().cell->method;
+    ++report_.cells_of_method[method_];
     if (found == now_.end()) {
       find(Finding::Kind::regression, label, "", "missing");
       return;
@@ -189,7 +194,7 @@ class Checker {
         return f.score.empty() && std::ranges::count(labels, f.cell) > 0;
       };
       *std::ranges::find_if(report_.findings, is_own) = {
-          Finding::Kind::regression, each.first, "", what};
+          Finding::Kind::regression, each.first, "", what, each.first};
       std::erase_if(report_.findings, is_own);
     }
   }
@@ -249,7 +254,8 @@ class Checker {
                      score.kind->unit,
                      before,
                      before == 0.0 ? 0.0 : 100.0 * (now / before - 1.0),
-                     allowed));
+                     allowed),
+         std::isnan(share) ? std::numeric_limits<double>::infinity() : share);
   }
 
   GateExtent extent_;
@@ -260,6 +266,7 @@ class Checker {
   std::map<std::string, std::vector<std::string>> newly_failed_;  // cells by method
   std::map<std::string, double> unsteady_;                        // largest difference, by method
   bool is_unsteady_ = false;                                      // the present cell
+  std::string method_;                                            // likewise
   std::size_t unlimited_ = 0;                                     // scores without a limit
   std::map<std::string, CellRecords> now_;  // cells that the baseline did not have so far
   GateReport report_;

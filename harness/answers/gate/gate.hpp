@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,16 +34,20 @@ struct Finding {
     added         ///< not in the baseline
   };
   Kind kind = Kind::regression;
-  std::string cell;   ///< result of `name`; of a method that fails everywhere its name
-  std::string score;  ///< empty: the complete cell
-  std::string what;   ///< old and new value, with the limit
+  std::string cell;    ///< result of `name`; of a method that fails everywhere its name
+  std::string score;   ///< empty: the complete cell
+  std::string what;    ///< old and new value, with the limit
+  std::string method;  ///< of the cell
+  /// Absolute relative change of the number; infinite if it has none to compare with.
+  double change = std::numeric_limits<double>::infinity();
 };
 
 struct GateReport {
-  std::size_t cells = 0;                      ///< of the baseline
-  std::size_t scores = 0;                     ///< compared scores, that is, those with a limit
-  std::vector<std::string> names;             ///< of the baseline's cells, in order
-  std::vector<Finding> findings;              ///< in the order of the baseline
+  std::size_t cells = 0;           ///< of the baseline
+  std::size_t scores = 0;          ///< compared scores, that is, those with a limit
+  std::vector<std::string> names;  ///< of the baseline's cells, in order
+  std::map<std::string, std::size_t> cells_of_method;  ///< of the baseline, by method
+  std::vector<Finding> findings;                       ///< in the order of the baseline
   std::map<std::string, std::string> failed;  ///< cells that failed now, with the stored reason
   std::vector<std::string> notes;  ///< checks that were not possible, and what is not checked
   std::vector<std::string> above;  ///< notes of the runs that can change a conclusion

@@ -61,17 +61,22 @@ inline std::string verdict(const GateReport& report) {
                      failed == 1 ? "1 cell fails" : fmt::format("{} cells fail", failed));
 }
 
+/// "1 regression, 0 improvements, 0 new cells in 16 cells and 16 scores".
+inline std::string counts_text(const GateReport& report) {
+  return fmt::format("{}, {}, {} in {} and {}",
+                     counted(report.count(Finding::Kind::regression), "regression"),
+                     counted(report.count(Finding::Kind::improvement), "improvement"),
+                     counted(report.count(Finding::Kind::added), "new cell"),
+                     counted(report.cells, "cell"),
+                     counted(report.scores, "score"));
+}
+
 /// Verdict, counts, notes and table of findings.
 inline std::string markdown(const GateReport& report, const std::string& sweep) {
   Table out{sweep + ": " + verdict(report),
             {"cell", "score", "finding", "what"},
             {},
-            {fmt::format("{}, {}, {} in {} and {}",
-                         counted(report.count(Finding::Kind::regression), "regression"),
-                         counted(report.count(Finding::Kind::improvement), "improvement"),
-                         counted(report.count(Finding::Kind::added), "new cell"),
-                         counted(report.cells, "cell"),
-                         counted(report.scores, "score"))}};
+            {counts_text(report)}};
   for (const std::string& note : report.notes) out.notes.push_back(note);
   out.above = report.above;
   for (const Finding& finding : report.findings) {
