@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/core/error.hpp"
+#include "harness/answers/report/alignment_text.hpp"
 #include "harness/answers/report/data.hpp"
 #include "harness/answers/report/draw.hpp"
 #include "harness/answers/report/report.hpp"
@@ -35,13 +36,11 @@ struct PlotArguments {
   FigureOptions figures;
 };
 
-/// "se3 alignment" of the first protocol of a sweep, whose trajectories are stored; empty if the
+/// ", not aligned" of the first protocol of a sweep, whose trajectories are stored; empty if the
 /// store does not state it.
 std::string alignment_of(const ReportContent& content) {
   const auto all = alignments(content.run);
-  if (all.empty()) return "";
-  const std::string& how = all.front().second;
-  return ", " + (how == "none" ? "no" : how) + " alignment";
+  return all.empty() ? "" : ", " + alignment_text(all.front().second);
 }
 
 /// Whether the store has what a panel of scores shows.

@@ -125,7 +125,7 @@ class Figures(unittest.TestCase):
     def test_repeat_and_alignment_are_stated(self):
         self.sweep(ROOM % "a", more="repeats: 2\nprotocol: {align: sim3}\n")
         self.call("plot r -o f --panels plane --format svg")
-        self.expect_in("f/01_a_trajectories.svg", ">a, repeat 0 (first of 2), sim3 alignment<")
+        self.expect_in("f/01_a_trajectories.svg", ">a, repeat 0 (first of 2), aligned by rotation, translation and scale<")
 
     def test_sequences_panels_and_size_are_selected(self):
         self.sweep(ROOM % "'off|ice_&%<b>'" + "," + ROOM % "b", "raw, uniform")
@@ -171,7 +171,7 @@ class Figures(unittest.TestCase):
         self.write("room/other_name.txt", error=0.2)
         line = "eval room/gt.txt room/a_long_name.txt room/other_name.txt --align none --plot "
         self.assertEqual(self.call(line + "f/p.svg")[1], "f/p.svg\n")
-        self.expect_in("f/p.svg", ">room, no alignment (ATE as RMSE)<", ">a_long_name (0.0707 m)<",
+        self.expect_in("f/p.svg", ">room, not aligned. In brackets: position error (RMSE)<", ">a_long_name (0.0707 m)<",
                        ">other_name (0.141 m)<")
         self.assertEqual(self.call(line + "p")[1], "p.pdf\n")
 

@@ -150,17 +150,44 @@ class Draw(unittest.TestCase):
             across, up = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
             self.assertAlmostEqual(frame.width / across / (frame.height / up), 1.0, places=6)
 
-    def test_angles_break_at_180_degrees(self):
-        rows = np.array([[0.0, 170.0], [1.0, -175.0], [2.0, -170.0]])
-        broken = panels.broken_at_wraps(rows)
-        self.assertEqual(len(broken), 4)
-        self.assertTrue(np.isnan(broken[1]).all())
+    def test_angles_continue_at_the_other_end_of_the_range(self):
+        rows = np.array([[0.0, 170.0], [1.0, -175.0], [2.0, -170.0], [3.0, 175.0], [4.0, 0.0], [5.0, 90.0]])
+        np.testing.assert_array_equal(panels.broken_at_wraps(rows), [
+            [0.0, 170.0], [2 / 3, 180.0], [np.nan] * 2, [2 / 3, -180.0], [1.0, -175.0], [2.0, -170.0],
+            [2 + 2 / 3, -180.0], [np.nan] * 2, [2 + 2 / 3, 180.0], [3.0, 175.0], [np.nan] * 2, [4.0, 0.0], [5.0, 90.0]])
+        around = panels.broken_at_wraps(rows[:4], 180.0)
+        np.testing.assert_array_equal(around[:, 1], [170.0, 185.0, 190.0, 175.0])
+
+    def test_no_line_of_an_angle_is_vertical(self):
+        noise = [170.0, -170.0, 175.0, -175.0] * 20
+        many = [360.0 * (i / 7.3 % 1.0) - 180.0 for i in range(80)]  # rotates by 49 deg from row to row
+        for angles, is_whole in ((noise, True), (many, False)):
+            data = {"curves": [{"name": "one", "time": list(range(80)), "yaw": angles}]}
+            drawn = draw.figure(data, ["yaw by time"]).axes[0].lines[0].get_xydata()
+            steps = np.abs(np.diff(drawn[:, 1]))
+            self.assertLess(np.nanmax(steps), 50.0)
+            self.assertEqual(not np.isnan(drawn).any(), is_whole)  # noise about 180 deg is drawn from 0 to 360
+
+    def test_more_than_twelve_estimates_have_several_blocks(self):
+        data = data_of(*(f"method {i}" for i in range(30)))
+        fig = draw.figure(data, ["xy", "error by time", "boxes"], columns=3)
+        self.assertEqual(len(fig.axes), 9)
+        names = [[text.get_text() for text in legend.get_texts()] for legend in fig.legends]
+        self.assertEqual([len(each) for each in names], [13, 13, 13])  # with reference, start and end
+        self.assertEqual([each[1] for each in names], ["method 0", "method 10", "method 20"])
+        colors = [line.get_color() for axes in fig.axes[1::3] for line in axes.lines]
+        self.assertEqual(colors, [panels.COLORS[i % 8] for i in range(30)])
+        for i in range(3):
+            limits = {(axes.get_xlim(), () if i == 2 else axes.get_ylim()) for axes in fig.axes[i::3]}
+            self.assertEqual(len(limits), 1)
+        self.assertEqual(len(draw.figure(data_of(*"abcdefghijkl"), ["xy"]).axes), 1)
+        self.expect_apart(draw.figure(data, ["error by time", "xy"], 2, (2.4, 2.1), 7.0), "blocks")
 
     def test_legend_is_limited_and_counts_the_rest(self):
-        data = {"curves": [curve(f"method {i}") for i in range(20)]}
-        legend = draw.figure(data, ["xy", "xz"]).legends[0]
+        data = scores_of([f"method {i}" for i in range(20)])
+        legend = draw.figure(data, ["growth"]).legends[0]
         names = [text.get_text() for text in legend.get_texts()]
-        self.assertEqual(names[-2:], ["method 10", "and 11 more"])
+        self.assertEqual((len(names), names[-1]), (15, "and 6 more"))
 
     def test_colours_are_those_of_the_data_or_of_the_order(self):
         data = data_of("one", "two", "three")

@@ -90,24 +90,44 @@ TEST(Figures, NamesAreTheShortestThatDiffer) {
               ElementsAre("reference", "x/a/e.txt", "y/a/e.txt"));
 }
 
-TEST(Figures, ManyRunsAreRepresentedByTheFirstOfEachMethod) {
+TEST(Figures, AllRunsAreDrawn) {
   std::vector<std::string> files;
   for (const char* const method : {"ba", "rp"}) {
-    for (const int run : {0, 1, 2, 3, 4}) {
+    for (int run = 0; run < 5; ++run) {
       files.push_back(std::string(method) + "/W/" + std::to_string(run) + ".txt");
     }
   }
   const FigureData all = drawn("W.csv", files);
-  EXPECT_THAT(names(all), ElementsAre("reference", "ba 0", "rp 0"));
-  EXPECT_EQ(all.note, "8 of 10 estimates are not drawn");
+  EXPECT_THAT(names(all),
+              ElementsAre("reference",
+                          "ba 0",
+                          "ba 1",
+                          "ba 2",
+                          "ba 3",
+                          "ba 4",
+                          "rp 0",
+                          "rp 1",
+                          "rp 2",
+                          "rp 3",
+                          "rp 4"));
+  EXPECT_EQ(all.note, "");
+  EXPECT_EQ(all.title,
+            "W, not aligned. In brackets: position error (RMSE)");
 }
 
-TEST(Figures, OfManyRunsOfOneMethodSixAreDrawn) {
+TEST(Figures, TheBestOfVeryManyRunsAreDrawn) {
+  std::vector<EvaluationResult> results;
   std::vector<std::string> files;
-  for (int run = 0; run < 7; ++run) files.push_back("ba_" + std::to_string(run) + ".txt");
-  const FigureData all = drawn("V.csv", files);
-  EXPECT_THAT(names(all), ElementsAre("reference", "ba 0", "ba 1", "ba 2", "ba 3", "ba 4", "ba 5"));
-  EXPECT_EQ(all.note, "1 of 7 estimates are not drawn");
+  for (int run = 0; run < 200; ++run) {
+    files.push_back("ba_" + std::to_string(run) + ".txt");
+    results.emplace_back().drawn = {reference_curve(), {.rmse = 1.0 - 0.001 * run}};
+  }
+  const FigureData all = drawn_runs(results, labelled_runs("V.csv", files, ""));
+  ASSERT_EQ(all.curves.size(), 1 + kMostEstimates);
+  EXPECT_EQ(all.curves.front().name, "reference");
+  EXPECT_EQ(all.curves[1].name, "ba 104");
+  EXPECT_EQ(all.curves.back().name, "ba 199");
+  EXPECT_EQ(all.note, "the best 96 of 200 estimates are drawn");
 }
 
 }  // namespace

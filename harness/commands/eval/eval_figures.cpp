@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "harness/answers/report/alignment_text.hpp"
 #include "harness/sweep/model/name_order.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/trajectory/projection.hpp"
@@ -39,6 +40,24 @@ std::vector<std::string> short_names(const std::vector<NamedTrajectory>& all) {
     stems.push_back(output_stem(each.name));
   }
   return std::set(stems.begin(), stems.end()).size() == all.size() ? stems : names;
+}
+
+/// Leaves the reference and the kMostEstimates curves with the smallest errors, in their order.
+/// Returns the number of the others.
+std::size_t keep_best(std::vector<DrawnCurve>& curves) {
+  if (curves.size() <= 1 + kMostEstimates) return 0;
+  std::vector<double> errors;
+  for (const DrawnCurve& curve : curves) errors.push_back(curve.rmse.value_or(0.0));
+  std::vector<double> sorted = errors;  // the reference's is first
+  std::ranges::nth_element(sorted, sorted.begin() + kMostEstimates);
+  const double most = sorted[kMostEstimates];
+  std::vector<DrawnCurve> kept;
+  for (std::size_t i = 0; i < curves.size() && kept.size() <= kMostEstimates; ++i) {
+    if (i == 0 || errors[i] <= most) kept.push_back(std::move(curves[i]));
+  }
+  const std::size_t left_out = curves.size() - kept.size();
+  curves = std::move(kept);
+  return left_out;
 }
 
 }  // namespace
@@ -82,7 +101,6 @@ std::vector<DrawnCurve> drawn_evaluation(const Trajectory& reference,
 
 FigureData drawn_runs(const std::vector<EvaluationResult>& all,
                       const std::vector<EvaluatedRun>& runs) {
-  constexpr std::size_t kMostCurves = 6;  // more hide each other
   FigureData out;
   NameOrder methods;
   std::map<std::string, std::size_t> count, before;  // by method
@@ -92,21 +110,14 @@ FigureData drawn_runs(const std::vector<EvaluationResult>& all,
   }
   const bool is_several = methods.names().size() > 1;
   const std::size_t protocols = runs.empty() ? 1 : all.size() / runs.size();
-  std::size_t left_out = 0;
   for (std::size_t i = 0; i < all.size(); i += protocols) {
     const EvaluatedRun& run = runs[i / protocols];
     if (!all[i].why_failed.empty()) continue;
     const std::size_t repeat = before[run.method]++;
     if (out.curves.empty()) {
-      const metrics::Align align = all[i].alignment.type;
-      const std::string how = align == metrics::Align::none ? "no" : to_text(align);
-      out.title = run.sequence + ", " + how + " alignment (ATE as RMSE)";
+      out.title = run.sequence + ", " + alignment_text(to_text(all[i].alignment.type)) +
+                  ". In brackets: position error (RMSE)";
       out.curves.push_back(all[i].drawn.front());
-    }
-    const bool is_repeat = is_several && repeat > 0 && runs.size() > kMostCurves;
-    if (is_repeat || out.curves.size() > kMostCurves) {
-      ++left_out;
-      continue;
     }
     DrawnCurve& curve = out.curves.emplace_back(all[i].drawn.back());
     const bool has_repeats = count[run.method] > 1;
@@ -114,8 +125,10 @@ FigureData drawn_runs(const std::vector<EvaluationResult>& all,
     curve.style = is_several ? methods.index(run.method) : repeat;
     if (is_several && has_repeats) curve.dash = 1 + static_cast<int>(repeat % 5);
   }
+  const std::size_t left_out = keep_best(out.curves);
   if (left_out > 0) {
-    out.note = fmt::format("{} of {} estimates are not drawn", left_out, all.size() / protocols);
+    out.note = fmt::format(
+        "the best {} of {} estimates are drawn", kMostEstimates, kMostEstimates + left_out);
   }
   return out;
 }
@@ -149,7 +162,7 @@ FigureData trajectory_figure(const std::vector<NamedTrajectory>& all,
   FigureData out;
   if (reference) {
     out.curves.push_back(drawn_trajectory(reference_curve(), reference->file.poses, origin));
-    out.title = "no alignment";
+    out.title = alignment_text("none");
   }
   const std::vector<std::string> names = labels_of(options, short_names(all));
   for (std::size_t i = 0; i < all.size(); ++i) {

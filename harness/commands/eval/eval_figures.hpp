@@ -17,12 +17,13 @@ namespace loopbench::harness {
 std::vector<DrawnCurve> drawn_evaluation(const Trajectory& reference,
                                          const metrics::Evaluation& evaluation);
 
+inline constexpr std::size_t kMostEstimates = 96;  ///< of one page; figures have panels for twelve
+
 /// The reference and the estimates evaluated under the first protocol, without figures; no curves
-/// if all failed. The title has sequence, alignment and score, the note how many are not drawn.
-/// `runs[i / protocols]` belongs to `all[i]`. The name of an estimate is its method, or method and
-/// run if a method has several. The further runs of a method are dashed, or have colours of their
-/// own if there is only one method. Of more than six estimates, six are drawn, only the first run
-/// of each of several methods.
+/// if all failed. The title has sequence, alignment and score. `runs[i / protocols]` belongs to
+/// `all[i]`. The name of an estimate is its method, or method and run if a method has several. The
+/// further runs of a method are dashed, or have colours of their own if there is only one method.
+/// Of more than kMostEstimates, those with the smallest errors are drawn, as the note says.
 FigureData drawn_runs(const std::vector<EvaluationResult>& all,
                       const std::vector<EvaluatedRun>& runs);
 

@@ -45,7 +45,8 @@ from matplotlib.ticker import MaxNLocator
 from . import panels as parts
 from . import scores
 
-MOST_LEGEND_ENTRIES = 12
+MOST_ESTIMATES = 12  # in a panel; more hide each other
+MOST_LEGEND_ENTRIES = MOST_ESTIMATES + 3  # with the reference, start and end
 _RC = {
     "svg.fonttype": "none",
     "svg.hashsalt": "loopbench",
@@ -212,6 +213,33 @@ def _add_panel(
         parts.draw_curves(axes, data, panel, size)
 
 
+def _blocks(data: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """Shares of at most MOST_ESTIMATES estimates, each with the reference and all limits of axes."""
+    is_reference = lambda curve: curve.get("name") == "reference"  # noqa: E731
+    references = [each for each in data["curves"] if is_reference(each)]
+    estimates = [
+        {"style": index, **curve}
+        for index, curve in enumerate(each for each in data["curves"] if not is_reference(each))
+    ]
+    count = -(-len(estimates) // MOST_ESTIMATES)
+    if count < 2:
+        return [data]
+    ends = [len(estimates) * i // count for i in range(count + 1)]
+    shares = [estimates[begin:end] for begin, end in zip(ends, ends[1:])]
+    return [{**data, "curves": references + own, "all_curves": data["curves"]} for own in shares]
+
+
+def _unify_limits(rows: Sequence[Any], panel: str) -> None:
+    """The same ranges for the axes that show one panel of several blocks."""
+    if len(rows) < 2 or parts.is_map(panel):
+        return
+    for name in "x" if panel == "boxes" else "xy":
+        limits = [getattr(axes, f"get_{name}lim")() for axes in rows]
+        low, high = min(each[0] for each in limits), max(each[1] for each in limits)
+        for axes in rows:
+            getattr(axes, f"set_{name}lim")(low, high)
+
+
 def figure(
     data: Mapping[str, Any],
     panels: Sequence[str],
@@ -222,6 +250,8 @@ def figure(
     plane: str | None = None,
 ) -> DrawnFigure:
     """Panels row by row with one legend above and, for a single estimate, a colour bar below them.
+
+    More than twelve estimates are drawn in several blocks of all panels, with a legend each.
 
     panels: "plane", "xy", "xz", "yz", "xyz" (space), "COLUMN by time", "COLUMN by distance",
     "histogram", "boxes"; of scores "ratio", "time", "boxes", "growth". size: width and height of a
@@ -255,20 +285,26 @@ def figure(
         most = int(fig.get_figwidth() / (0.52 * em))
         texts = [data.get("title", ""), data.get("note", "")]
         lines = [line for text in texts for line in textwrap.wrap(text, most)]
-        head = _add_legend(fig, _legend_entries(data, panels), 10.0, font)
-        height = bar + size[1] * rows + head + 1.6 * em * len(lines)
+        blocks = _blocks(data)
+        heads = [_add_legend(fig, _legend_entries(each, panels), 10.0, font) for each in blocks]
+        height = bar + size[1] * rows * len(blocks) + sum(heads) + 1.6 * em * len(lines)
         fig.set_figheight(height)
         top = height
         for line in lines:
             place = (0.4 * em / fig.get_figwidth(), (top - 1.3 * em) / height)
             fig.text(*place, line, parse_math=False)
             top -= 1.6 * em
-        for legend in fig.legends:
-            legend.set_bbox_to_anchor((0.0, top / height))
-        top -= head
+        legends = iter(fig.legends)
+        for block, head in zip(blocks, heads):
+            if head:
+                next(legends).set_bbox_to_anchor((0.0, top / height))
+            top -= head
+            for i, panel in enumerate(panels):
+                at = (size[0] * (i % columns), top - size[1] * (1 + i // columns))
+                _add_panel(fig, block, panel, (*at, *size), em)
+            top -= size[1] * rows
         for i, panel in enumerate(panels):
-            box = (size[0] * (i % columns), top - size[1] * (1 + i // columns), size[0], size[1])
-            _add_panel(fig, data, panel, box, em)
+            _unify_limits(fig.axes[i :: len(panels)], panel)
         if bar:
             _add_color_bar(fig, data, em)
     return fig

@@ -47,6 +47,7 @@ LABELS = {
     "angle": "rotation error [deg]",
 }
 _ANGLES = ("roll", "pitch", "yaw")
+_LARGEST_STEP = 120.0  # of an angle from one row to the next [deg]; larger ones are jumps
 _MOST_COLORED = 1000  # segments of a line whose colour is the error
 
 
@@ -230,6 +231,7 @@ def _add_colored(axes: Any, points: npt.NDArray[np.float64], errors: Any, width:
 def draw_map(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[float]) -> None:
     """Positions along the named axes: two, or three for space. `size`: of the frame [in]."""
     curves = [each for each in data["curves"] if is_drawn(each, panel)]
+    all_curves = [each for each in data.get("all_curves", curves) if is_drawn(each, panel)]
     colored = colored_curve(data)
     index = 0
     for curve in curves:
@@ -244,9 +246,9 @@ def draw_map(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[floa
     for points, look in zip(ends(data, panel), (START, END)):
         axes.plot(*points, zorder=2.4, **look)
     if len(panel) == 3:
-        _spatial_scales(axes, curves, panel, size)
+        _spatial_scales(axes, all_curves, panel, size)
     else:
-        _equal_scales(axes, curves, panel, size)
+        _equal_scales(axes, all_curves, panel, size)
 
 
 def _few_ticks(axes: Any, size: Sequence[float], font: float) -> None:
@@ -256,15 +258,49 @@ def _few_ticks(axes: Any, size: Sequence[float], font: float) -> None:
     axes.yaxis.set_major_locator(MaxNLocator(max(2, min(6, int(size[1] / (2 * em)))), steps=steps))
 
 
-def broken_at_wraps(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Rows (abscissa, angle [deg]) with a gap where the angle jumps between -180 and 180."""
-    jumps = np.flatnonzero(np.abs(np.diff(values[:, 1])) > 180.0) + 1
-    return np.insert(values, jumps, np.nan, axis=0)
+def _wrapped(angles: npt.NDArray[np.float64], middle: float) -> npt.NDArray[np.float64]:
+    """In the range of `middle` - 180 to `middle` + 180 deg."""
+    return (angles - middle + 180.0) % 360.0 - 180.0 + middle
+
+
+def middle_angle(curves: Sequence[npt.NDArray[np.float64]]) -> float:
+    """Middle of the range of 360 deg whose ends the fewest angles pass: 0 if it is among them."""
+    wraps = lambda angles: np.count_nonzero(np.abs(np.diff(angles)) > 180.0)  # noqa: E731
+    total = lambda middle: sum(wraps(_wrapped(each, middle)) for each in curves)  # noqa: E731
+    return float(min((0.0, 90.0, -90.0, 180.0), key=total))
+
+
+def broken_at_wraps(
+    rows: npt.NDArray[np.float64], middle: float = 0.0
+) -> npt.NDArray[np.float64]:
+    """Rows (abscissa, angle [deg]) in the range around `middle` without vertical lines.
+
+    Where an angle passes an end of the range, the curve ends there and continues at the other end.
+    Where it jumps, as Euler angles do when the pitch passes 90 deg, the curve has a gap.
+    """
+    out = []
+    last = None
+    for at, angle in zip(rows[:, 0], _wrapped(rows[:, 1], middle)):
+        if last is not None:
+            step = _wrapped(angle - last[1], 0.0)
+            if abs(step) > _LARGEST_STEP:
+                out.append((math.nan, math.nan))
+            elif abs(angle - last[1]) > 180.0:
+                end = middle + math.copysign(180.0, step)
+                crossing = last[0] + (at - last[0]) * (end - last[1]) / step
+                other = 2.0 * middle - end
+                out += [(crossing, end), (math.nan, math.nan), (crossing, other)]
+        last = (at, angle)
+        out.append(last)
+    return np.array(out)
 
 
 def draw_curves(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[float]) -> None:
     """`panel`: "COLUMN by time" or "COLUMN by distance"; curves without these are left out."""
     name, along = panel.split(" by ")
+    is_angle = name in _ANGLES
+    all_curves = [c for c in data.get("all_curves", data["curves"]) if is_drawn(c, panel)]
+    middle = middle_angle([column(each, name) for each in all_curves]) if is_angle else 0.0
     index = 0
     for curve in data["curves"]:
         look = style(curve, index)
@@ -272,7 +308,7 @@ def draw_curves(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[f
         if not is_drawn(curve, panel):
             continue
         rows = np.stack([column(curve, along), column(curve, name)], axis=1)
-        axes.plot(*(broken_at_wraps(rows) if name in _ANGLES else rows).T, **look)
+        axes.plot(*(broken_at_wraps(rows, middle) if is_angle else rows).T, **look)
     low, high = axes.get_ylim()
     if high - low < 0.001:  # constant values: a range that does not magnify rounding errors
         axes.set_ylim(low - 0.001, high + 0.001)
