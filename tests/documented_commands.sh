@@ -24,6 +24,7 @@ while IFS= read -r hit; do
   read -ra verbs <<<"$command"
   [[ -v help_of[$command] ]] || help_of[$command]=$("$loopbench" "${verbs[@]}" --help 2>&1) ||
     { fail "$where" "no command is named '$command'"; help_of[$command]=''; continue; }
+  [[ ${help_of[$command]} != *--help-all* ]] || help_of[$command]=$("$loopbench" "${verbs[@]}" --help-all)
   for word in "${words[@]:1}"; do
     case $word in
       --*) option=${word%%=*}

@@ -33,7 +33,10 @@ def catalogue(known):
 
 
 def commands(loopbench, *path):
-    text = subprocess.run([loopbench, *path, "--help"], capture_output=True, text=True, check=True).stdout
+    ask = lambda option: subprocess.run([loopbench, *path, option], capture_output=True, text=True, check=True).stdout
+    text = ask("--help")
+    if "--help-all" in text:
+        text = ask("--help-all")
     yield " ".join(("command", *path))
     for names in re.findall(r"^  ((?:-[\w-]+(?:, )?)+)", text, re.M):
         yield "  " + names

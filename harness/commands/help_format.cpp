@@ -102,8 +102,37 @@ std::string list_of_names(const std::set<CLI::Option*>& options) {
   return joined(names, ", ");
 }
 
+/// "61 more options (Files, Pairing): loopbench eval --help-all", of a command with kDailyGroup.
+std::string other_groups(const CLI::App& command) {
+  std::vector<std::string> groups;
+  std::size_t count = 0;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string& group = option->get_group();
+    if (option->get_positional() || group.empty() || group == kDailyGroup || group == "Options")
+      continue;
+    ++count;
+    if (std::ranges::count(groups, group) == 0) groups.push_back(group);
+  }
+  const std::string name = program_name() + " " + command.get_name();
+  return std::to_string(count) + " more options (" + joined(groups, ", ") + "): " + name +
+         " --help-all\n";
+}
+
 class HelpFormatter final : public CLI::Formatter {
  public:
+  std::string make_help(const CLI::App* command,
+                        std::string name,
+                        CLI::AppFormatMode mode) const override {
+    const std::vector<std::string> groups = command->get_groups();
+    is_brief_ = mode == CLI::AppFormatMode::Normal && std::ranges::count(groups, kDailyGroup) > 0;
+    std::string out = CLI::Formatter::make_help(command, std::move(name), mode);
+    // Groups that are left out leave their blank lines.
+    for (std::size_t at = 0; is_brief_ && (at = out.find("\n\n\n")) != std::string::npos;) {
+      out.erase(at, 1);
+    }
+    is_brief_ = false;
+    return out;
+  }
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
     const std::vector<std::string> choices = choices_of(*option);
     const bool is_list = option->get_expected_max() == CLI::detail::expected_max_vector_size;
@@ -130,6 +159,7 @@ class HelpFormatter final : public CLI::Formatter {
   std::string make_group(std::string group,
                          bool is_positional,
                          std::vector<const CLI::Option*> options) const override {
+    if (is_brief_ && !is_positional && group != "Options" && group != kDailyGroup) return "";
     const bool follows = !is_positional && group != "Options";
     return CLI::Formatter::make_group(group, is_positional, options).substr(follows ? 1 : 0);
   }
@@ -143,11 +173,23 @@ class HelpFormatter final : public CLI::Formatter {
     return with_program_name(CLI::Formatter::make_usage(command, std::move(name)));
   }
   std::string make_footer(const CLI::App* command) const override {
-    return paragraphs(with_program_name(command->get_footer()));
+    const std::string more = is_brief_ ? other_groups(*command) + "\n" : "";
+    return paragraphs(more) + paragraphs(with_program_name(command->get_footer()));
   }
+
+ private:
+  mutable bool is_brief_ = false;  ///< while the help of a command without --help-all is made
 };
 
 }  // namespace
+
+void declare_daily(CLI::App& command, const std::vector<std::string>& names) {
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_positional()) option->group("Options");  // else their group is before this one
+  }
+  for (const std::string& name : names) command.get_option(name)->group(kDailyGroup);
+  command.set_help_all_flag("--help-all", "Print all options and exit")->group("Options");
+}
 
 std::shared_ptr<CLI::FormatterBase> help_formatter() { return std::make_shared<HelpFormatter>(); }
 

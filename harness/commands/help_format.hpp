@@ -13,6 +13,12 @@ class Option;
 
 namespace loopbench::harness {
 
+/// The group of the options that --help prints of a command that has one; --help-all prints all.
+inline constexpr const char* kDailyGroup = "Daily use";
+
+/// Moves these options to kDailyGroup, and adds --help-all.
+void declare_daily(CLI::App& command, const std::vector<std::string>& names);
+
 /// Fits the width of the terminal, at most 100 columns; unlimited in pipes and files. Commands
 /// added after it is set use it, too.
 std::shared_ptr<CLI::FormatterBase> help_formatter();

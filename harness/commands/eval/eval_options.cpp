@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/commands/checks.hpp"
+#include "harness/commands/help_format.hpp"
 #include "harness/commands/options.hpp"
 
 namespace loopbench::harness {
@@ -207,6 +208,17 @@ void declare(CLI::App& command, EvalArguments& a) {
   declare_alignment(command, a);
   declare_metrics(command, a);
   declare_output(command, a);
+  declare_daily(command,
+                {"--format",
+                 "--max-diff",
+                 "--align",
+                 "--correct_scale",
+                 "--protocol",
+                 "--metric",
+                 "--full",
+                 "--plot",
+                 "--report",
+                 "--store"});
 }
 
 }  // namespace loopbench::harness
