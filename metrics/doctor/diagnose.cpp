@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/map_checks.hpp"
+#include "metrics/doctor/order_checks.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/average.hpp"
@@ -83,21 +85,50 @@ class PairDiagnosis {
     (is_estimate ? estimate_ : reference_) = &changed_;
   }
 
-  /// Jumps of the estimate, or else of the reference, at its own poses.
-  void remove_all_jumps(Paired& poses) {
-    constexpr std::size_t kMostRows = 5000;  // a jump between two poses is found at any distance
-    Paired rows = common_poses(*reference_, *estimate_, offset_, kMostRows);
-    if (!add(remove_jumps(rows, false))) {
-      rows = common_poses(*estimate_, *reference_, -offset_, kMostRows);
-      std::swap(rows.reference, rows.estimate);
-      if (!add(remove_jumps(rows, true))) return;
+  static constexpr std::size_t kMostRows = 5000;  // a jump between two poses is found at any size
+
+  /// At the rows of the estimate, or else of the reference.
+  Paired rows_of(bool reference) const {
+    if (!reference) return common_poses(*reference_, *estimate_, offset_, kMostRows);
+    Paired out = common_poses(*estimate_, *reference_, -offset_, kMostRows);
+    std::swap(out.reference, out.estimate);
+    return out;
+  }
+
+  /// Jumps, new maps, frozen poses and changes of scale of the estimate, or else jumps and frozen
+  /// poses of the reference.
+  void repair_parts(Paired& poses) {
+    Paired rows = rows_of(false);
+    bool is_changed = add(remove_frozen(rows, *estimate_, false));
+    PartedPairs parted{rows, {}};
+    std::optional<InputFinding> jumps = remove_jumps(rows, false);
+    if (!agreement(thinned(rows)).is_good()) {
+      constexpr double kMostAfter = 0.5;
+      const double left = position_error(rows, similarity(rows));
+      std::optional<InputFinding> maps = join_maps(parted, *estimate_, kMostAfter);
+      if (!maps && !jumps) maps = join_scales(parted, *estimate_);
+      if (maps && (!jumps || position_error(parted) < kMostAfter * left)) {
+        jumps = std::move(maps);
+        rows = std::move(parted.pairs);
+      }
     }
-    poses = {};
+    is_changed |= add(std::move(jumps));
+    if (!is_changed && !agreement(poses).is_good()) {
+      rows = rows_of(true);
+      is_changed = add(remove_frozen(rows, *reference_, true));
+      is_changed |= add(remove_jumps(rows, true));
+    }
+    if (is_changed) poses = thinned(rows);
+  }
+
+  static Paired thinned(const Paired& rows) {
+    Paired out;
     const std::size_t step = even_step(rows.estimate.size(), kMostPoses);
     for (std::size_t i = 0; i < rows.estimate.size(); i += step) {
-      poses.reference.push_back(rows.reference[i]);
-      poses.estimate.push_back(rows.estimate[i]);
+      out.reference.push_back(rows.reference[i]);
+      out.estimate.push_back(rows.estimate[i]);
     }
+    return out;
   }
 
   /// Notes it if they are not.
@@ -111,9 +142,21 @@ class PairDiagnosis {
     return false;
   }
 
+  /// Between few poses of the reference, its motion is not known.
+  bool has_enough_of_reference() {
+    const std::size_t count = common_poses(*estimate_, *reference_, -offset_).estimate.size();
+    if (count >= kFewestCommonPoses) return true;
+    out_.unchecked.push_back(
+        fmt::format("{}: poses of the reference in the estimate's time: {}, expected at least {}",
+                    kChecksOfPoses,
+                    count,
+                    kFewestCommonPoses));
+    return false;
+  }
+
   void check_poses() {
     Paired poses = common_poses(*reference_, *estimate_, offset_);
-    if (!are_enough(poses)) return;
+    if (!are_enough(poses) || !has_enough_of_reference()) return;
     const bool is_reference = is_at_rest(*reference_);
     if (is_reference || is_at_rest(*estimate_)) {
       out_.unchecked.push_back(fmt::format("{}: the {} moves by less than {:g} times its noise",
@@ -123,14 +166,15 @@ class PairDiagnosis {
       return;
     }
     out_.has_checked = true;
-    remove_all_jumps(poses);
+    repair_parts(poses);
     if (!are_enough(poses)) return;
     if (!agreement(poses).has_rotations) {
       note_constant_rotation(largest_rotation_angle(poses.reference),
                              largest_rotation_angle(poses.estimate));
     }
-    while (add(apply_best_repair(poses, out_.findings))) {
+    while (add(apply_best_repair(poses, out_.findings, lacks_rotations(*reference_)))) {
     }
+    if (out_.findings.empty() && !agreement(poses).is_good()) add(check_shear(poses));
     check_recording(poses);
   }
 
@@ -167,6 +211,12 @@ class PairDiagnosis {
     const double confidence = std::min(1.0, position) * (1.0 - correlation);
     if (correlation > kLeastCorrelation || confidence < kLeastConfidence) return;
     out_.findings.clear();
+    if (add(check_rows(*reference_, *estimate_, has_stamps_))) return;
+    if (!has_stamps_ && reference_->size() != estimate_->size()) {
+      out_.unchecked.push_back(fmt::format(
+          "{}: the files have no stamps and different numbers of rows", kChecksOfPoses));
+      return;
+    }
     if (add(check_rate(*reference_, *estimate_))) return;
     add(InputFinding{
         Fault::wrong_recording,

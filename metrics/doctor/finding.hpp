@@ -16,9 +16,16 @@ struct Fault {
       "time_offset";                                ///< or a shift of rows of files without stamps
   static constexpr Name stamp_unit = "stamp_unit";  ///< milliseconds to nanoseconds for seconds
   static constexpr Name no_overlap = "no_overlap";  ///< no common time, frame numbers for seconds
-  static constexpr Name missing_poses = "missing_poses";          ///< large gaps, dropped frames
-  static constexpr Name wrong_recording = "wrong_recording";      ///< files of different recordings
-  static constexpr Name jumps = "jumps";                          ///< positions jump
+  static constexpr Name missing_poses = "missing_poses";      ///< large gaps, dropped frames
+  static constexpr Name wrong_recording = "wrong_recording";  ///< files of different recordings
+  static constexpr Name row_order = "row_order";              ///< rows of files sorted as text
+  static constexpr Name relative_poses = "relative_poses";    ///< motions from row to row
+  static constexpr Name degrees = "degrees";                  ///< latitude and longitude as x and y
+  static constexpr Name sheared = "sheared";                  ///< axes have different units
+  static constexpr Name jumps = "jumps";                      ///< positions jump
+  static constexpr Name new_map = "new_map";            ///< frame changes, restart at the origin
+  static constexpr Name frozen = "frozen";              ///< the same pose for seconds
+  static constexpr Name scale_change = "scale_change";  ///< once, at a row
   static constexpr Name constant_rotation = "constant_rotation";  ///< one file has no rotations
   static constexpr Name quaternion_order = "quaternion_order";
   static constexpr Name inverted_poses = "inverted_poses";  ///< or rotations or positions alone

@@ -18,23 +18,25 @@ struct TimeOffset {
   double correlation = 0.0;     ///< of the speeds at the offset, mean of linear and angular speed
   double before = 0.0;          ///< the same at offset 0; 0 without common times
   bool has_common_time = true;  ///< at offset 0
+  double odds = 0.0;            ///< logarithm of those of the offset to the next likely one
 };
 
 /// Correlation of the speeds as read; 0 without common times. O(log n).
 double speed_correlation(const Trajectory& reference, const Trajectory& estimate, double offset);
 
-/// The offset with the largest correlation of linear and angular speed: at most 10 s, or else over
-/// all overlaps of at least half of the shorter file. Refined to a fraction of a sample. An offset
-/// below 1 s is preferred to a larger one that fits equally well, as periodic motion has. The
-/// deviation follows from the residuals of the speeds and their slopes. nullopt if no offset
-/// explains the speeds (correlation below 0.6). O(1e5 log n).
+/// The offset with the most likely correlation of linear and angular speeds over one second
+/// (longer for sparse poses and long recordings), over all overlaps of at least three tenths of the
+/// shorter file: on a coarse grid, then refined to a fraction of a sample. The deviation is that of
+/// twenty parts, whose errors can be correlated within. nullopt if no offset explains the speeds
+/// (correlation below 0.6), or if another one is nearly as likely (1 to 20), as for equal laps.
+/// O(1e6) at most.
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate);
 
 /// A finding if the offset is significant (five standard deviations, above 20 ms and 35 % of the
-/// estimate's interval) and reduces the errors after an alignment. Files without common time, and
-/// offsets above 10 s, need a correlation of 0.85: those of different recordings reach 0.75.
-/// Without stamps, the offset is one of rows, and has to be a whole number of them.
+/// estimate's interval) and reduces the errors after an alignment. Offsets above 10 s, and of files
+/// without common time, need larger odds. Without stamps, the offset is one of rows, and has to be
+/// a whole number of them.
 std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& reference,
                                            const Trajectory& estimate,
@@ -73,7 +75,9 @@ std::optional<InputFinding> remove_jumps(Paired& poses, bool of_reference);
 /// lever arm of the body, the repair with the largest gain. It has to reduce the sum of errors
 /// clearly and at least one error by a quarter, on poses that it was not fitted to. nullopt if
 /// there is none with another fault than `found`, or if the poses agree. O(n).
+/// `has_positions_only`: the reference has no rotations, so that it can follow an antenna.
 std::optional<InputFinding> apply_best_repair(Paired& poses,
-                                              const std::vector<InputFinding>& found);
+                                              const std::vector<InputFinding>& found,
+                                              bool has_positions_only = false);
 
 }  // namespace loopbench::metrics

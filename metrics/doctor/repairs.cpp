@@ -8,6 +8,7 @@
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/conventions.hpp"
 #include "metrics/doctor/pair_checks.hpp"
+#include "metrics/doctor/position_lever.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
@@ -104,10 +105,42 @@ void add_bodies(std::vector<Repair>& to, const Paired& poses) {
       fmt::format("{:.3g} m away", length));
 }
 
+/// Whether short motions agree much less after a repair: it explains something else.
+bool spoils_motions(const Agreement& before, const Agreement& after) {
+  constexpr double kFactor = 2.0, kLeast = 0.1;
+  const auto is_worse = [&](double was, double is) { return is > kFactor * was + kLeast; };
+  return is_worse(before.displacement, after.displacement) ||
+         is_worse(before.turning, after.turning);
+}
+
+/// Of positions, if the estimate rotates.
+void add_antenna(std::vector<Repair>& to, const Paired& poses) {
+  constexpr double kOfDeviation = 2.1;  // 95 % with the scatter of twenty parts
+  if (largest_rotation_angle(poses.estimate) < kLeastRotation) return;
+  const auto found = position_lever(poses);
+  if (!found) return;
+  const Vector3 half = kOfDeviation * found->deviation;
+  const Pose by{Rotation::Identity(), found->arm};
+  to.push_back({Fault::other_body,
+                fmt::format("the reference's positions are those of an antenna or prism {:.3g} m "
+                            "away (+- {:.2g}, {:.2g}, {:.2g} m, 95 %)",
+                            found->arm.norm(),
+                            half.x(),
+                            half.y(),
+                            half.z()),
+                "--ref-body=" + body_option(by),
+                found->arm.norm(),
+                kPenalty,
+                [=](const Pose& p) { return p * by; },
+                false,
+                true});
+}
+
 }  // namespace
 
 std::optional<InputFinding> apply_best_repair(Paired& poses,
-                                              const std::vector<InputFinding>& found) {
+                                              const std::vector<InputFinding>& found,
+                                              bool has_positions_only) {
   constexpr double kLeastGain = 0.7, kMostAfter = 0.75;            // a factor of 2 in the errors
   constexpr double kLeastOfLeverArm = 0.2, kMostOfLeverArm = 0.6;  // drift resembles lever arms
   const Agreement before = agreement(poses);
@@ -118,6 +151,8 @@ std::optional<InputFinding> apply_best_repair(Paired& poses,
   if (before.has_rotations) {
     add_bodies(candidates, fitted);
     add_conventions(candidates);
+  } else if (has_positions_only) {
+    add_antenna(candidates, fitted);
   }
   const Repair* best = nullptr;
   Improvement gained;
@@ -128,6 +163,7 @@ std::optional<InputFinding> apply_best_repair(Paired& poses,
     Paired changed = poses;
     repair.apply(changed);
     const Agreement after = agreement(changed);
+    if (spoils_motions(before, after)) continue;
     const double gain = before.cost() - after.cost() - repair.penalty;
     if (gain < std::max(largest, repair.is_lever_arm ? kLeastOfLeverArm : kLeastGain)) continue;
     Improvement change = improvement(before, after);

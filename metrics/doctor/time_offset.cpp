@@ -8,6 +8,7 @@
 
 #include "datasets/core/se3.hpp"
 #include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/offset_search.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/numerics/angle.hpp"
 
@@ -126,24 +127,6 @@ double least_interval(const Trajectory& reference, const Trajectory& estimate) {
   return std::max({kShortest, usual_interval(reference), 0.99 * usual_interval(estimate)});
 }
 
-/// The vertex of the parabola through three scores, and its standard deviation in least squares of
-/// the angles and of the distances: from the part of both that is not explained, and the curvature
-/// of their correlations.
-void refine(const SpeedMatch& match, double step, TimeOffset& out) {
-  const SpeedScore left = match.score(out.offset - step), middle = match.score(out.offset),
-                   right = match.score(out.offset + step);
-  double information = 0.0;
-  for (double SpeedScore::*part : {&SpeedScore::angle, &SpeedScore::distance}) {
-    const double curvature = (2.0 * middle.*part - left.*part - right.*part) / (step * step);
-    const double residual = 1.0 - middle.*part * middle.*part;
-    if (residual > 0.0 && curvature > 0.0) information += curvature / residual;
-  }
-  out.deviation = information > 0.0 ? 1.0 / std::sqrt(information * match.size()) : INFINITY;
-  const double curvature = left.best() - 2.0 * middle.best() + right.best();
-  if (!(curvature < 0.0)) return;
-  out.offset += std::clamp(0.5 * step * (left.best() - right.best()) / curvature, -step, step);
-}
-
 }  // namespace
 
 double speed_correlation(const Trajectory& reference, const Trajectory& estimate, double offset) {
@@ -156,40 +139,71 @@ double speed_correlation(const Trajectory& reference, const Trajectory& estimate
 
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate) {
-  constexpr double kSteps = 200.0;  // of the search of all overlaps
+  constexpr double kWindow = 1.0, kOfDuration = 1.0 / 30.0, kShortest = 0.2;  // [s]
+  constexpr double kMostPoints = 8000.0, kUneven = 0.987;  // steps that are no multiples of rates
+  constexpr double kAsLikely = 3.0;                        // logarithm of odds of 20 to 1
   if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
-  const double first = estimate.front().stamp, interval = least_interval(reference, estimate);
-  const SpeedMatch match(reference, estimate, kManyIntervals, interval, first);
-  const SpeedMatch few(reference, estimate, kFewIntervals, interval, first);
-  const double coarse = std::clamp(interval, 0.2, 0.5), fine = 0.2 * coarse;
-  BestOffset best = search_offsets(few, -kNear, kNear, coarse);
-  if (best.score < kLeastCorrelation) {
-    // At least half of the shorter one must be common: a short overlap can fit by chance.
-    const double shorter = std::min(duration(reference), duration(estimate));
-    const double low = reference.front().stamp - estimate.back().stamp + 0.5 * shorter;
-    const double high = reference.back().stamp - first - 0.5 * shorter;
-    const double step = std::max(coarse, (high - low) / kSteps);
-    const SpeedMatch wide(reference, estimate, kFewIntervals, std::max(interval, step), first);
-    const double rough = search_offsets(wide, low, high, step).offset;
-    best = search_offsets(few, rough - step, rough + step, std::max(coarse, step / kSteps));
-  }
-  const SpeedScore before = match.score(0.0);
-  if (before.best() > best.score) best = {0.0, before.best()};
-  best = search_offsets(match, best.offset - coarse, best.offset + coarse, fine);
+  const auto [shorter, longer] = std::minmax({duration(reference), duration(estimate)});
+  const double usual = 2.0 * std::max(usual_interval(reference), usual_interval(estimate));
+  const double window = std::max({std::clamp(kOfDuration * shorter, kShortest, kWindow), usual});
+  const double step =
+      std::max(kUneven * window / static_cast<double>(kWindowSteps), longer / kMostPoints);
+  const OffsetSearch search(speed_grid(reference, step, longest_gap(reference)),
+                            speed_grid(estimate, step, longest_gap(estimate)));
+  const std::vector<OffsetFit> found = search.best();
+  if (found.empty()) return std::nullopt;
+  const OffsetFit& best = found.front();
+  const OffsetFit as_read = search.at(0.0);
+  const double second = found.size() > 1 ? found[1].likelihood : 0.0;
+  const auto score = [](const OffsetFit& fit) {
+    return std::max(0.0, SpeedScore{fit.angle, fit.distance, true}.best());
+  };
   TimeOffset out{.offset = best.offset,
-                 .before = std::max(0.0, before.best()),
-                 .has_common_time = before.is_known};
-  refine(match, fine, out);
-  out.correlation = match.at(out.offset);
-  if (out.correlation < kLeastCorrelation) return std::nullopt;
+                 .deviation = best.deviation,
+                 .correlation = score(best),
+                 .before = score(as_read),
+                 .has_common_time = as_read.points >= 0.2 * search.size(),
+                 .odds = best.likelihood - std::max(0.0, second)};
+  if (out.correlation < kLeastCorrelation || !(out.odds >= kAsLikely)) return std::nullopt;
   return out;
 }
+
+namespace {
+
+/// ": the difference of GPS time and UTC", if it is one.
+std::string leap_of(double size) {
+  constexpr double kSame = 0.25;  // [s]
+  constexpr std::pair<double, const char*> kLeaps[] = {
+      {18.0, "GPS time and UTC"}, {37.0, "TAI and UTC"}, {19.0, "TAI and GPS time"}};
+  for (const auto& [seconds, clocks] : kLeaps) {
+    if (std::abs(size - seconds) < kSame)
+      return fmt::format(" ({:g} s is the difference of {})", seconds, clocks);
+  }
+  return "";
+}
+
+std::string offset_text(const TimeOffset& found, double offset, double rows, bool has_stamps) {
+  constexpr double kOfDeviation = 2.1;  // 95 % with the scatter of twenty parts
+  if (!has_stamps) {
+    return fmt::format("row i of the estimate belongs to row i {} {:.0f} of the reference",
+                       rows > 0.0 ? "+" : "-",
+                       std::abs(rows));
+  }
+  return fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s (95 %) {} the reference's{}",
+                     std::abs(offset),
+                     kOfDeviation * found.deviation,
+                     offset > 0.0 ? "behind" : "ahead of",
+                     leap_of(std::abs(offset)));
+}
+
+}  // namespace
 
 std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& reference,
                                            const Trajectory& estimate,
                                            bool has_stamps) {
   constexpr double kOfInterval = 0.35, kDeviations = 5.0;  // [s]; significant
+  constexpr double kSure = 10.0;                           // of odds of far offsets
   const double size = std::abs(found.offset), period = usual_interval(estimate);
   const double significant = kOfInterval * std::min(0.2, period);
   if (size < std::max({kLeastOffset, significant, kDeviations * found.deviation}))
@@ -198,8 +212,11 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
   const bool is_whole = std::abs(found.offset - rows * period) < kOfInterval * period;
   if (!has_stamps && (rows == 0.0 || !is_whole)) return std::nullopt;
   const double offset = has_stamps ? found.offset : rows * period;
-  const bool is_near = found.has_common_time && size <= kNear;
-  if (!is_near && found.correlation < kSameCorrelation) return std::nullopt;
+  const bool is_far = !found.has_common_time || size > kNear;
+  if (is_far && (found.odds < kSure ||
+                 (!found.has_common_time && found.correlation < kSameCorrelation - 0.15))) {
+    return std::nullopt;
+  }
   double confidence = 0.5;
   std::string change =
       fmt::format("correlation of speeds {:.3f} -> {:.3f}", found.before, found.correlation);
@@ -211,19 +228,8 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
     change += ", " + gained.text;
     confidence = std::max(kLeastConfidence, 1.0 - gained.ratio);
   }
-  const std::string what = has_stamps ? fmt::format(
-                                            "the estimate's stamps are {:.3f} +- {:.3f} s "
-                                            "{} the reference's",
-                                            size,
-                                            found.deviation,
-                                            offset > 0.0 ? "behind" : "ahead of")
-                                      : fmt::format(
-                                            "row i of the estimate belongs to row i {} "
-                                            "{:.0f} of the reference",
-                                            rows > 0.0 ? "+" : "-",
-                                            std::abs(rows));
   return InputFinding{Fault::time_offset,
-                      what + ": " + change,
+                      offset_text(found, offset, rows, has_stamps) + ": " + change,
                       fmt::format("--offset {:.4f}", offset),
                       confidence,
                       offset};

@@ -138,8 +138,10 @@ std::vector<metrics::InputFinding> findings_of(
       // The option replaces the offset that is already applied.
       finding.value += offset;
     }
-    return finding.fault == metrics::Fault::other_body ||  // the evaluation has a note of its own
-           (finding.fault == metrics::Fault::scale && is_aligned);
+    // The evaluation has a note of its own, but none of antennas.
+    const bool is_known =
+        finding.fault == metrics::Fault::other_body && !lacks_rotations(pair.reference);
+    return is_known || (finding.fault == metrics::Fault::scale && is_aligned);
   });
   return out;
 }
