@@ -71,7 +71,8 @@ std::string why_not_understood(const PoseNames& all, bool with_rotation) {
       std::string accepted = "m, cm or mm";
       if (role == Role::time) accepted = "s, ms, us or ns";
       if (role == Role::latitude || role == Role::longitude) accepted = "deg";
-      if (role >= Role::roll) accepted = "rad or deg";
+      if (role >= Role::roll) accepted = "rad or deg, and an order such as zyx";
+      if (Role::vector_x <= role && role <= Role::vector_z) accepted = "rad";
       return fmt::format("has a header with unit {} in '{}', expected {}",
                          shortened(wrong),
                          shortened(all.names[found[0]]),
@@ -84,6 +85,19 @@ std::string why_not_understood(const PoseNames& all, bool with_rotation) {
                      missing,
                      unknown.empty() ? "" : " (unknown: " + unknown + ")",
                      kAccepted);
+}
+
+/// "zyx, xyz" if roll, pitch and yaw state different orders; empty: they do not.
+std::string contradicting_orders(const PoseNames& all) {
+  std::string first;
+  for (const Role role : {Role::roll, Role::pitch, Role::yaw}) {
+    if (!all.has(role)) continue;
+    const std::string& order = all.meaning(all.best(role).front()).order;
+    if (order.empty() || order == first) continue;
+    if (!first.empty()) return first + ", " + order;
+    first = order;
+  }
+  return "";
 }
 
 /// The column of nanoseconds after whole seconds. `why_not` is set if it has no such partner.
@@ -138,12 +152,14 @@ void set_indices(const PoseNames& all, CsvColumns& columns) {
   std::size_t count = 0;
   for (const Role role : all.roles(columns.has_rotation)) {
     const std::size_t found = all.best(role).front();
-    if (role < Role::roll) {
+    if (role < Role::vector_x) {
       columns.index[count++] = found;
       continue;
     }
     columns.angles.push_back(found);
+    columns.is_vector = role < Role::roll;
     if (all.meaning(found).is_in_degrees) columns.per_radian = 180.0 / std::numbers::pi;
+    if (!all.meaning(found).order.empty()) columns.order = all.meaning(found).order;
   }
   columns.lacks_z = columns.angles.size() == 1;
   if (columns.lacks_z) columns.index[3] = columns.index[2];  // not read
@@ -207,6 +223,10 @@ CsvHeader csv_header(std::string_view header) {
   if (why_not.empty()) columns.covariance = covariance_indices(all, columns.has_rotation, why_not);
   if (!why_not.empty()) {
     out.why_not = why_not;
+    return out;
+  }
+  if (const std::string orders = contradicting_orders(all); !orders.empty()) {
+    out.why_not = "has a header with different orders of angles: " + orders;
     return out;
   }
   set_indices(all, columns);

@@ -32,6 +32,8 @@ struct CsvColumns {
   /// heading of a planar pose, which has no z. Empty: quaternion.
   std::vector<std::size_t> angles = {};
   double per_radian = 1.0;  ///< unit of the angles
+  std::string order = {};   ///< of roll, pitch, yaw: "xyz" for Rx Ry Rz; empty: as above
+  bool is_vector = false;   ///< the angles are a rotation vector
   bool lacks_z = false;     ///< z is 0
   bool has_more = false;    ///< rows can have further columns: the header ends in a name as *covar
 };
@@ -51,10 +53,11 @@ struct CsvHeader {
 /// are positions; instead of x, y and z they can have latitude (lat), longitude (lon) and height
 /// (alt). cov_x_x, cov_x_y, ... cov_yaw_yaw are the upper triangle of a covariance, which has to be
 /// complete. Without a quaternion, roll, pitch and yaw are the rotation (in radians unless the unit
-/// is deg), and x, y and theta (yaw, heading) are a planar pose. If only the time is missing, it is
-/// in a column such as frame_id, id or image, or else in the first column, if no other one is
-/// unknown. The stamp of a message (header.stamp) is taken rather than the time of its receipt.
-/// Columns with an empty name are ignored.
+/// is deg; another order follows it, [deg, xyz] for Rx Ry Rz), rvec_x, rvec_y and rvec_z are a
+/// rotation vector, and x, y and theta (yaw, heading) are a planar pose. If only the time is
+/// missing, it is in a column such as frame_id, id or image, or else in the first column, if no
+/// other one is unknown. The stamp of a message (header.stamp) is taken rather than the time of its
+/// receipt. Columns with an empty name are ignored.
 CsvHeader csv_header(std::string_view header);
 
 /// Splits a row or a header at commas, or at blanks if it has none. Quotes around a column are

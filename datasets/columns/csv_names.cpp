@@ -21,6 +21,9 @@ constexpr std::array kSpellings{
     Spelling{kRotations, "ijk", Role::qx, NameRank::rare},
     Spelling{"ori|r", "wxyz", Role::qw, NameRank::rare},
     Spelling{"|t|p|pos|prsr|trans|*position|*translation", "xyz", Role::x},
+    Spelling{"rvec|rotvec|rotationvector|rodrigues|axisangle", "xyz", Role::vector_x},
+    Spelling{"east|easting", "", Role::x, NameRank::rare},
+    Spelling{"north|northing", "", Role::y, NameRank::rare},
     Spelling{"lat|*latitude", "", Role::latitude},
     Spelling{"lon|lng|long|*longitude", "", Role::longitude},
     Spelling{"alt|h|height|*altitude", "", Role::height},
@@ -30,8 +33,9 @@ constexpr std::array kSpellings{
     Spelling{"yaw|theta|heading", "", Role::yaw},
 };
 constexpr std::string_view kUsualStamps = "t|time|times|stamp|timestamp|timestamps";
-constexpr std::string_view kRareStamps = "epoch|*headerstamp|ts|stamps";
-constexpr std::string_view kStampsWithUnit = "|t|time|stamp|timestamp|epoch|*headerstamp";
+constexpr std::string_view kRareStamps = "epoch|*headerstamp|ts|stamps|gpstime";
+constexpr std::string_view kStampsWithUnit =
+    "|t|time|stamp|timestamp|epoch|*headerstamp|trackingtimestamp";
 constexpr std::string_view kDegreeUnits = "|deg|degree|degrees|\u00b0";
 constexpr std::string_view kRadianUnits = "|rad|radian|radians";
 constexpr std::array<std::pair<std::string_view, double>, 3> kPerMetre{
@@ -117,6 +121,19 @@ std::optional<PoseColumn> time_column(const NamedColumn& name) {
   return out;
 }
 
+/// A unit of angles and the order of axes behind it: "deg,zyx" or "zyx".
+std::pair<std::string, std::string> split_order(const std::string& unit) {
+  constexpr std::size_t kAxes = 3;
+  if (unit.size() < kAxes) return {unit, ""};
+  const std::string order = unit.substr(unit.size() - kAxes);
+  std::string axes = order;
+  std::ranges::sort(axes);
+  if (axes != "xyz") return {unit, ""};
+  std::string rest = unit.substr(0, unit.size() - kAxes);
+  while (rest.ends_with(',') || rest.ends_with(';')) rest.pop_back();
+  return {rest, order};
+}
+
 /// By kSpellings.
 std::optional<PoseColumn> spelled_column(const NamedColumn& name) {
   for (const auto& [stems, letters, first, rank] : kSpellings) {
@@ -134,8 +151,12 @@ std::optional<PoseColumn> spelled_column(const NamedColumn& name) {
       if (!per_metre) out.wrong_unit = name.unit;
     } else if (first == Role::latitude || first == Role::longitude) {
       if (!is_one_of(name.unit, kDegreeUnits)) out.wrong_unit = name.unit;
-    } else if (first >= Role::roll && !is_one_of(name.unit, kRadianUnits)) {
-      out.is_in_degrees = is_one_of(name.unit, kDegreeUnits);
+    } else if (first >= Role::vector_x) {
+      const bool is_vector = first < Role::roll;
+      const auto [unit, order] = split_order(name.unit);
+      if (!is_vector) out.order = order;
+      if (is_one_of(unit, kRadianUnits)) return out;
+      out.is_in_degrees = !is_vector && is_one_of(unit, kDegreeUnits);
       if (!out.is_in_degrees) out.wrong_unit = name.unit;
     }
     return out;
@@ -171,6 +192,10 @@ std::optional<PoseColumn> pose_column(std::string_view full_name) {
   if (const auto column = spelled_column(full)) return column;
   const std::size_t suffix = name.rfind('_');
   if (suffix == name.npos || !full.unit.empty()) return std::nullopt;
+  // tx_world_device, qw_odometry_device, as of Project Aria.
+  if (const std::size_t frames = name.find('_'); frames == 2 && name.ends_with("_device")) {
+    return spelled_column(named_column(name.substr(0, frames)));
+  }
   const NamedColumn stem{plain_name(name.substr(0, suffix)), plain_name(name.substr(suffix))};
   if (stem.base.empty()) return std::nullopt;
   const bool is_length = unit_value(stem.unit, kPerMetre).has_value();

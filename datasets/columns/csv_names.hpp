@@ -23,6 +23,9 @@ enum class Role {
   longitude,
   height,
   fix,
+  vector_x,  ///< of a rotation vector, in radians
+  vector_y,
+  vector_z,
   roll,
   pitch,
   yaw
@@ -39,6 +42,9 @@ constexpr std::array kRoleNames{"time",
                                 "longitude",
                                 "height",
                                 "fix",
+                                "rvec_x",
+                                "rvec_y",
+                                "rvec_z",
                                 "roll",
                                 "pitch",
                                 "yaw"};
@@ -56,6 +62,7 @@ struct PoseColumn {
   std::optional<int> time_exponent = {};  ///< stated unit of time, 10^exponent [s]
   double per_metre = 1.0;                 ///< unit of a position
   bool is_in_degrees = false;             ///< stated unit of an angle; otherwise radians
+  std::string order = {};                 ///< stated order of Euler angles: "zyx"
   std::string wrong_unit = {};            ///< stated, but not supported
 };
 

@@ -53,9 +53,11 @@ struct PoseNames {
   /// Whether the header has latitude, longitude and height instead of x, y and z.
   bool is_geodetic() const { return !has_any(Role::x, 3) && has(Role::latitude); }
 
-  /// The roles of angles in place of a quaternion; empty: none.
+  /// The roles of angles in place of a quaternion, or of a rotation vector; empty: none.
   std::vector<Role> angles() const {
-    if (has_any(Role::qw, 4) || !has(Role::yaw)) return {};
+    if (has_any(Role::qw, 4)) return {};
+    if (has_any(Role::vector_x, 3)) return {Role::vector_x, Role::vector_y, Role::vector_z};
+    if (!has(Role::yaw)) return {};
     if (has(Role::roll) && has(Role::pitch)) return {Role::roll, Role::pitch, Role::yaw};
     const bool is_planar = has(Role::x) && has(Role::y) && !has(Role::z);
     return is_planar ? std::vector{Role::yaw} : std::vector<Role>{};
@@ -67,7 +69,10 @@ struct PoseNames {
     const Role first = is_geodetic() ? Role::latitude : Role::x;
     const std::vector<Role> rotation = angles();
     const std::size_t axes = rotation.size() == 1 ? 2 : 3;
-    for (std::size_t i = 0; i < axes; ++i) out.push_back(after(first, i));
+    for (std::size_t i = 0; i < axes; ++i) {
+      const bool is_height = i == 2 && first == Role::x && !has(Role::z) && has(Role::height);
+      out.push_back(is_height ? Role::height : after(first, i));  // easting, northing, altitude
+    }
     if (!rotation.empty()) {
       out.insert(out.end(), rotation.begin(), rotation.end());
     } else {

@@ -17,6 +17,7 @@
 #include "datasets/formats/csv_row.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/format_registry.hpp"
+#include "datasets/formats/nmea.hpp"
 #include "datasets/formats/written_rows.hpp"
 
 namespace loopbench {
@@ -167,6 +168,7 @@ ReadStamp csv_stamp(const TextFile& file,
 namespace {
 
 Trajectory read_csv(TextFile& file, const ReadOptions& options) {
+  if (is_nmea(first_line(file))) return read_nmea(file, options);
   const auto columns = csv_columns(file);
   if (columns && !columns->has_rotation && !options.positions) {
     throw file.error(0, csv_header(file.header().empty() ? file.comment() : file.header()).why_not);
@@ -184,7 +186,8 @@ Trajectory read_csv(TextFile& file, const ReadOptions& options) {
       [&](const Trajectory& a, const Trajectory& b) { return follows(a, b, options.sort); }));
   file.repaired.time_column = columns->time_column;
   file.repaired.ignored_columns = columns->ignored;
-  file.repaired.angles = columns->angles.size();
+  const bool is_stated = columns->is_vector || !columns->order.empty();
+  file.repaired.angles = is_stated ? 0 : columns->angles.size();
   if (columns->names_frames && !out.empty() && has_frame_numbers(file, columns->index[0])) {
     file.repaired.clock = Clock::ids;
   }

@@ -58,7 +58,8 @@ Rotation rotation_of_angles(const TextFile& file,
                             const CsvColumns& columns,
                             const CsvRow& row) {
   constexpr double kMost = 2.0 * std::numbers::pi + 1e-6;
-  Rotation out = Rotation::Identity();
+  Vector3 angles = Vector3::Zero();
+  const bool is_heading = columns.angles.size() == 1;
   for (std::size_t i = 0; i < columns.angles.size(); ++i) {
     const std::size_t index = columns.angles[i];
     const double angle = csv_number(file, line, columns, row, index) / columns.per_radian;
@@ -69,9 +70,13 @@ Rotation rotation_of_angles(const TextFile& file,
                                    columns.names[index],
                                    angle));
     }
-    const bool is_heading = columns.angles.size() == 1;
-    const Vector3 axis = Vector3::Unit(is_heading ? 2 : static_cast<Eigen::Index>(i));
-    out = exp_so3(angle * axis) * out;
+    angles[is_heading ? 2 : static_cast<Eigen::Index>(i)] = angle;
+  }
+  if (columns.is_vector) return exp_so3(angles).normalized();
+  Rotation out = Rotation::Identity();
+  for (const char axis : columns.order.empty() ? std::string("zyx") : columns.order) {
+    const Eigen::Index i = axis - 'x';
+    out = out * exp_so3(angles[i] * Vector3::Unit(i));
   }
   return out.normalized();
 }

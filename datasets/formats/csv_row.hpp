@@ -29,8 +29,8 @@ Matrix6 covariance_of_row(const TextFile& file,
                           const CsvColumns& columns,
                           const CsvRow& row);
 
-/// Rz(yaw) Ry(pitch) Rx(roll), or Rz(heading). Throws InputError for angles without a unit that are
-/// not radians.
+/// Rz(yaw) Ry(pitch) Rx(roll) or in the stated order, Rz(heading), or of a rotation vector. Throws
+/// InputError for angles without a unit that are not radians.
 Rotation rotation_of_angles(const TextFile& file,
                             const Line& line,
                             const CsvColumns& columns,

@@ -12,6 +12,7 @@
 #include "datasets/formats/csv.hpp"
 #include "datasets/formats/format_registry.hpp"
 #include "datasets/formats/known_layouts.hpp"
+#include "datasets/formats/nmea.hpp"
 
 namespace loopbench {
 
@@ -53,7 +54,9 @@ Format detect_by_numbers(const TextFile& file, const Line& line) {
                    what +
                        ", expected tum (8 columns, 9 with a node id, 29 or 44 with a covariance), "
                        "kitti (12 or 16 columns, one more with a stamp), euroc (whole nanoseconds "
-                       "and 7 or more columns) or g2o (VERTEX and EDGE lines)");
+                       "and 7 or more columns), csv (a header names the columns), NMEA ($GPGGA, "
+                       "$GPRMC), g2o (VERTEX and EDGE lines), log (a matrix over four lines), json "
+                       "(matrices), npy or npz, a folder with a matrix per file, or a ROS bag");
 }
 
 /// Whether the reader of `format` reads columns in this order and these units anyway.
@@ -90,6 +93,7 @@ void check_comment(const TextFile& file, const Line& line) {
 
 Format detect_format(TextFile& file) {
   const Line line = first_line(file);
+  if (is_nmea(line)) return Format::csv;
   if (has_decimal_commas(line.text))
     throw file.error(line.number, "has decimal commas, expected decimal points");
   const auto columns = csv_columns(file);

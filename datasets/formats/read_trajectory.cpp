@@ -14,6 +14,7 @@
 #include "datasets/formats/csv.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/format_registry.hpp"
+#include "datasets/formats/nmea.hpp"
 #include "datasets/formats/times.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 
@@ -62,6 +63,7 @@ std::vector<std::int64_t> exact_stamps(const std::filesystem::path& path,
   constexpr double kRounding = 1e-6;  // of large stamps as doubles [s]
   TextFile text(path);
   text.skip_header();
+  if (is_nmea(first_line(text))) return {};
   const auto csv = file.format == Format::csv ? csv_columns(text) : std::nullopt;
   const int exponent = csv ? csv_exponent(text, *csv, options) : stamp_exponent(text, 0, options);
   const auto stamp_of = [&](const Line& line) {
