@@ -14,6 +14,7 @@
 #include "metrics/errors/ape.hpp"
 #include "metrics/errors/ate.hpp"
 #include "metrics/errors/axis_error.hpp"
+#include "metrics/errors/drift.hpp"
 #include "metrics/errors/nees.hpp"
 #include "metrics/errors/rpe.hpp"
 #include "metrics/errors/segments.hpp"
@@ -38,6 +39,10 @@ std::vector<MetricEntry> metrics() {
       metric<ApeOptions>("ape", "absolute error in one of evo's pose relations", ape),
       metric<RpeOptions>(
           "rpe", "relative pose error over frames, seconds, metres or rotation angles", rpe),
+      metric("drift", "position error in per cent of the reference's path", drift),
+      metric("end_error", "error of the motion from the first to the last pose", end_error),
+      metric<SnippetAteOptions>(
+          "snippet_ate", "error of snippets of five frames with a scale of their own", snippet_ate),
       metric<SegmentsOptions>("segments", "drift over sub-trajectories of given lengths", segments),
       metric<AlongCrossOptions>("along_cross",
                                 "position error along, across and above the direction of travel",
