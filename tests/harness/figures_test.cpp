@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "datasets/core/so3.hpp"
 #include "harness/commands/eval/eval_figures.hpp"
 
@@ -50,6 +53,46 @@ TEST(Figures, KeepThePeakOfAnErrorWithFewerPoints) {
   EXPECT_EQ(one[1].columns.at("time").size(), errors.size());
   EXPECT_LE(errors.size(), 5 * 1000u);
   EXPECT_LE(one[0].columns.at("time").size(), 1001u);
+}
+
+/// Distance of a point from a polyline.
+double distance_from(const DrawnCurve& line, double x, double y) {
+  const std::vector<double>& xs = line.columns.at("x");
+  const std::vector<double>& ys = line.columns.at("y");
+  double out = INFINITY;
+  for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+    const double dx = xs[i + 1] - xs[i], dy = ys[i + 1] - ys[i], square = dx * dx + dy * dy;
+    const double u =
+        square > 0.0 ? std::clamp(((x - xs[i]) * dx + (y - ys[i]) * dy) / square, 0.0, 1.0) : 0.0;
+    out = std::min(out, std::hypot(x - xs[i] - u * dx, y - ys[i] - u * dy));
+  }
+  return out;
+}
+
+TEST(Figures, OfLongRunsDeviateByNoMoreThanHalfALine) {
+  constexpr std::size_t kRows = 20'000;
+  DrawnCurve all{.name = "laps"};
+  for (std::size_t i = 0; i < kRows; ++i) {  // 40 laps in 1000 rows would be polygons of 25 corners
+    const double angle = 2.0 * M_PI * 40.0 * static_cast<double>(i) / kRows;
+    add_position(all, {100.0 * std::cos(angle), 60.0 * std::sin(angle), 0.0});
+  }
+  DrawnCurve thinned = all;
+  thin(thinned);
+  EXPECT_LT(thinned.columns.at("x").size(), kRows / 4);
+  for (std::size_t i = 0; i < kRows; i += 97) {
+    const double x = all.columns.at("x")[i], y = all.columns.at("y")[i];
+    EXPECT_LE(distance_from(thinned, x, y), 0.002 * 200.0 / 2.0) << i;
+  }
+  const std::size_t rows = thinned.columns.at("x").size();
+  thin(thinned);
+  EXPECT_EQ(thinned.columns.at("x").size(), rows);
+}
+
+TEST(Figures, WithAScriptHaveAllData) {
+  NamedTrajectory one{"long", {}, {}};
+  one.file.poses = path(0.0, 4999.0, 0.1);
+  const FigureData data = trajectory_figure({one}, std::nullopt, default_trajectory_panels(), {});
+  EXPECT_EQ(data.curves[0].columns.at("x").size(), 5000u);  // draw() thins it without a script
 }
 
 TEST(Figures, OfATrajectoryHaveNoSpeedOfOnePose) {

@@ -1,7 +1,6 @@
 /// Curves of figures, and their colours and dashes, the same in every figure.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
@@ -38,6 +37,8 @@ struct DrawnCurve {
   int dash = 0;                  ///< 1 to 5; 0: that of the style
   std::optional<double> rmse{};  ///< of the position error [m]; none: not stated in the legend
   std::map<std::string, std::vector<double>> columns;
+  std::vector<std::string> peaks = {};  ///< columns whose extremes stay if rows are left out
+  bool is_thin = false;                 ///< rows were left out, or none had to be
 };
 
 /// DrawnCurve "reference" without columns; this name determines its style.
@@ -64,28 +65,13 @@ inline void add_poses(DrawnCurve& curve, const Trajectory& poses, double origin)
   }
 }
 
-inline constexpr std::size_t kMostRows = 1000;  ///< of a curve, without peaks; more are not visible
+/// Evenly spaced rows of a thinned curve; more are kept where it needs them.
+inline constexpr std::size_t kMostRows = 1000;
 
-/// Keeps kMostRows evenly spaced rows and, between two of them, the least and the greatest value of
-/// each column of `peaks`, so that no peak is lost. O(rows).
-inline void thin(DrawnCurve& curve, const std::vector<std::string>& peaks = {}) {
-  const std::size_t rows = curve.columns.empty() ? 0 : curve.columns.begin()->second.size();
-  if (rows <= kMostRows) return;
-  std::vector<std::size_t> kept = subsampled_indices(rows, kMostRows);
-  for (std::size_t k = 0; k + 1 < kMostRows; ++k) {
-    for (const std::string& name : peaks) {
-      const double* values = curve.columns.at(name).data();
-      const auto [low, high] = std::minmax_element(values + kept[k], values + kept[k + 1]);
-      for (const double* peak : {low, high})
-        kept.push_back(static_cast<std::size_t>(peak - values));
-    }
-  }
-  std::ranges::sort(kept);
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-  for (auto& [name, values] : curve.columns) {
-    for (std::size_t k = 0; k < kept.size(); ++k) values[k] = values[kept[k]];
-    values.resize(kept.size());
-  }
-}
+/// Keeps kMostRows evenly spaced rows; between two of them the least and the greatest value of x,
+/// y, z and each column of `peaks`, so that no peak is lost; and as many others as it takes that no
+/// position is farther than a thousandth of the largest extent from the drawn curve. Curves that
+/// are thin already stay as they are. O(rows log rows) usually.
+void thin(DrawnCurve& curve, const std::vector<std::string>& peaks = {});
 
 }  // namespace loopbench::harness

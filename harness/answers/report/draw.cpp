@@ -114,7 +114,6 @@ DrawnCurve curve_of(const SequenceTrace& trace) {
   for (const TracePose& p : trace.reference) {
     add_position(out, origin_of(trace) + Vector3(p.x, p.y, p.z));
   }
-  thin(out);
   return out;
 }
 
@@ -134,7 +133,7 @@ DrawnCurve curve_of(const CellTrace& trace, const Vector3& origin) {
     out.columns["error_z"].push_back(s.error_z);
     out.columns["angle"].push_back(s.error_angle);
   }
-  thin(out, {"error_x", "error_y", "error_z", "angle"});
+  out.peaks = {"error_x", "error_y", "error_z", "angle"};
   return out;
 }
 
@@ -142,7 +141,14 @@ DrawnCurve curve_of(const CellTrace& trace, const Vector3& origin) {
 
 void draw(const std::vector<FigureData>& all) {
   nlohmann::json document = nlohmann::json::array();
-  for (const FigureData& data : all) document.push_back(json_of(data));
+  for (FigureData data : all) {
+    // Scripts come with all data.
+    const auto has_script = [](const DrawnFigure& figure) { return figure.options.script; };
+    if (std::ranges::none_of(data.figures, has_script)) {
+      for (DrawnCurve& curve : data.curves) thin(curve, curve.peaks);
+    }
+    document.push_back(json_of(data));
+  }
   using nlohmann::json;
   const Ended result = run_python(document.dump(-1, ' ', false, json::error_handler_t::replace));
   if (result.exit_code == 2 && !result.output.empty()) throw InputError(result.output);

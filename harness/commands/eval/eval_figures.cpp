@@ -18,9 +18,8 @@ namespace {
 /// Adds the columns of a trajectory.
 DrawnCurve drawn_trajectory(DrawnCurve out, const Trajectory& poses, double origin) {
   add_poses(out, poses, origin);
-  std::vector<std::string> peaks;
   if (poses.size() > 1) {
-    peaks = {"speed"};
+    out.peaks = {"speed"};
     std::vector<double>& speed = out.columns["speed"];
     for (std::size_t i = 1; i < poses.size(); ++i) {
       const Vector3 step =
@@ -29,7 +28,6 @@ DrawnCurve drawn_trajectory(DrawnCurve out, const Trajectory& poses, double orig
     }
     speed.insert(speed.begin(), speed.front());
   }
-  thin(out, peaks);
   return out;
 }
 

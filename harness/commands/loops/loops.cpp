@@ -45,12 +45,12 @@ FigureData loops_figure(const LoopsResult& result) {
   const std::string title = std::filesystem::path(result.estimate).filename().string();
   FigureData out{title, "", {{.name = "keyframes"}}, {}, {}};
   add_poses(out.curves[0], result.problem.keyframes, 0.0);
-  thin(out.curves[0]);
   std::map<std::string, DrawnCurve> kinds{
       // drawn in this order
-      {"confirmed", {.name = "closures that the others confirm", .style = 2, .dash = 1}},
-      {"doubtful", {.name = "doubtful closures", .style = 4, .dash = 1}},
-      {"suspicious", {.name = "most suspicious closures", .style = 3, .dash = 1}},
+      {"confirmed",
+       {.name = "closures that the others confirm", .style = 2, .dash = 1, .is_thin = true}},
+      {"doubtful", {.name = "doubtful closures", .style = 4, .dash = 1, .is_thin = true}},
+      {"suspicious", {.name = "most suspicious closures", .style = 3, .dash = 1, .is_thin = true}},
   };
   for (std::size_t rank = 0; rank < result.ledger.suspects.size(); ++rank) {
     DrawnCurve& curve = kinds.at(judgement(result, rank));
