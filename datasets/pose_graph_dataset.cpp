@@ -240,6 +240,11 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
         fmt::format("priors are anchors ({}): their positions are used, their rotations are not",
                     graph.priors.size()));
   }
+  if (graph.scale_information > 0) {
+    sequence.provenance.notes.push_back(fmt::format(
+        "the information of the scale in {} edges is not used: scales have no weight of their own",
+        graph.scale_information));
+  }
   sequence.name = o.name.empty() ? default_name(o.path) : o.name;
   sequence.provenance.sensor = o.sensor;
   sequence.provenance.licence = o.licence;

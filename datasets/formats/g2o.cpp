@@ -79,6 +79,7 @@ PoseGraph read_g2o(TextFile& file, const InformationRules& rules) {
   Records records = read_records(file, rules);
   PoseGraph out;
   out.altered = records.altered;
+  out.scale_information = records.scale_information;
   out.planar = records.kind == GraphKind::planar;
   out.similarity = records.kind == GraphKind::similarity;
   if (records.vertices.empty()) {

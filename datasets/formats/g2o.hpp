@@ -24,6 +24,7 @@ struct PoseGraph {
   bool planar = false;                  ///< SE2 lines, lifted to z = roll = pitch = 0
   bool similarity = false;              ///< RST3 lines, with edge.scale
   std::size_t altered = 0;              ///< edges whose information was not positive definite
+  std::size_t scale_information = 0;    ///< edges with information of the scale, which is not used
   std::vector<std::size_t> fixed = {};  ///< vertices of FIX lines, ascending
   std::vector<Anchor> priors = {};      ///< positions of PRIOR lines; Anchor::keyframe is a vertex
 };

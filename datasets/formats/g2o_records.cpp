@@ -206,16 +206,15 @@ VertexRecord read_vertex(Record record, const Line& line) {
 }
 
 void read_edge(const TextFile& file, Record record, const Line& line, Records& out) {
-  EdgeEnds ends;
-  ends.from = record.id("i");
-  ends.to = record.id("j");
-  ends.line = line.number;
+  const std::int64_t from = record.id("i");
+  const EdgeEnds ends{from, record.id("j"), line.number};
   double inverse_scale = 1.0;
   Edge& edge = out.edges.emplace_back();
   edge.from_from_to = record.pose(inverse_scale);
   edge.scale = 1.0 / inverse_scale;
   edge.information = record.information();
   out.altered += record.is_altered() ? 1 : 0;
+  out.scale_information += count_columns(file, line) > 32 ? 1 : 0;  // 39
   if (ends.from == ends.to) {
     throw file.error(line.number,
                      "edge connects vertex " + std::to_string(ends.from) + " to itself");
@@ -293,6 +292,7 @@ Records read_records(TextFile& file, const InformationRules& rules) {
     append(out.priors, std::move(more.priors));
     out.lines += more.lines;
     out.altered += more.altered;
+    out.scale_information += more.scale_information;
   }
   return out;
 }

@@ -33,9 +33,10 @@ struct Records {
   std::vector<EdgeEnds> ends;
   std::vector<Edge> edges;  ///< one per `ends`; indices not set, information of a twist
   std::vector<PriorRecord> priors;
-  std::vector<EdgeEnds> fixed;  ///< `from` of each
-  std::size_t lines = 0;        ///< of the part of the file
-  std::size_t altered = 0;      ///< edges whose information was not positive definite
+  std::vector<EdgeEnds> fixed;        ///< `from` of each
+  std::size_t lines = 0;              ///< of the part of the file
+  std::size_t altered = 0;            ///< edges whose information was not positive definite
+  std::size_t scale_information = 0;  ///< edges with information of the scale, which is not used
 };
 
 /// Reads every VERTEX, EDGE, PRIOR and FIX line; PARAMS lines are skipped. Throws InputError for

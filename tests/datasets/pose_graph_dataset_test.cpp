@@ -57,6 +57,21 @@ TEST(PoseGraphDataset, OdometryIsTheChainAndTheRestCloses) {
   EXPECT_DOUBLE_EQ(problem.keyframes[3].stamp, 10.3);
 }
 
+TEST(PoseGraphDataset, NotesInformationOfScalesThatIsNotUsed) {
+  const TemporaryFolder scratch;
+  const auto notes_of = [&](const std::string& information) {
+    const std::string pose = " 1 0 0 0 0 0 1 1 ", end = information + "\n";
+    const auto file =
+        scratch.file("a.g2o",
+                     "VERTEX_RST3:QUAT 0 0 0 0 0 0 0 1 1\nVERTEX_RST3:QUAT 1 1 0 0 0 0 0 1 1\n"
+                     "EDGE_RST3:QUAT 0 1" +
+                         pose + end);
+    return read_g2o(file).scale_information;
+  };
+  EXPECT_EQ(notes_of("1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1"), 0u);
+  EXPECT_EQ(notes_of("1 0 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1"), 1u);
+}
+
 TEST(PoseGraphDataset, LoopEndsStayKeyframes) {
   const Problem problem = derive_problem(small_graph(true), every(10), "g");
   check(problem, "g");
