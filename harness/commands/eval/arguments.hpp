@@ -34,6 +34,8 @@ struct EvalArguments : ReadArguments {
   std::vector<std::string> protocols{"loopbench"};
   std::vector<GivenSetting> settings;  ///< FIELD=VALUE of the protocol
   bool correct_scale = false;
+  std::string parts;       ///< `auto` or a file: parts with an alignment each; empty: one
+  bool end_error = false;  ///< of loops without a reference: REF is evaluated, too
   std::optional<double> min_coverage;  ///< none: a tenth, and half of the best of another estimate
   std::string relation;
   std::optional<double> delta;

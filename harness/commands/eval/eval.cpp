@@ -9,9 +9,11 @@
 
 #include "harness/answers/tables/record_csv.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/eval/end_error.hpp"
 #include "harness/commands/eval/eval_figures.hpp"
 #include "harness/commands/eval/eval_options.hpp"
 #include "harness/commands/eval/evaluate_files.hpp"
+#include "harness/commands/eval/evaluated_parts.hpp"
 #include "harness/commands/eval/run_summary.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/sweep/process/write_file.hpp"
@@ -82,7 +84,7 @@ std::string result_text(const EvalArguments& a, const Evaluations& evaluations) 
   if (all.size() == 1) return text(all.front(), style, detail);
   const std::vector<Table> tables = comparison(all, detail);
   // The answer is first.
-  std::string out = verdict_of(a, evaluations.records, style);
+  std::string out = a.parts.empty() ? verdict_of(a, evaluations.records, style) : "";
   if (!style) out += markdown(tables);
   for (std::size_t i = 0; style && i < tables.size(); ++i) {
     out += (i == 0 ? "" : "\n") + terminal(tables[i], *style);
@@ -134,10 +136,19 @@ std::string printed(const EvalArguments& a, const Evaluations& all) {
   return a.csv ? csv(all.records) : printable(result_text(a, all));
 }
 
+int print_end_errors(const EvalArguments& a) {
+  std::vector<std::string> files{a.reference};
+  files.insert(files.end(), a.estimates.begin(), a.estimates.end());
+  write_file(a.out, printable(end_errors(files, a, a.json)));
+  return kExitOk;
+}
+
 int eval(const EvalArguments& a, const Source& source) {
   return_large_lists();
   check_outputs(a);
-  const Evaluations all = evaluate_files(a, source);
+  if (a.end_error) return print_end_errors(a);
+  if (a.estimates.empty()) throw InputError("eval: found REF alone, expected REF EST");
+  const Evaluations all = a.parts.empty() ? evaluate_files(a, source) : evaluate_parts(a);
   if (!a.store.empty()) return print_stored(a, all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all.results));
   write_figures(a, all);

@@ -13,8 +13,7 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   command.option_defaults()->group("Files");
   reads(command, add(command, "reference REF", a.reference, "Reference trajectory file"))
       ->required();
-  reads(command, add(command, "estimates EST", a.estimates, "Trajectory files to evaluate"))
-      ->required();
+  reads(command, add(command, "estimates EST", a.estimates, "Trajectory files to evaluate"));
   declare_reading(command, a, {"--tf", "--all-topics"});
   add(command, "--ref-format", a.reference_format, "Format of REF, if different from --format");
   add(command,
@@ -101,6 +100,13 @@ void declare_alignment(CLI::App& command, EvalArguments& a) {
   align->description(align->get_description() + " (without value: se3)");
   declare_setting(command, a, "-a", "align=se3", "Short for --align se3");
   declare_setting(command, a, "--align_origin", "align=origin", "Short for --align origin");
+  reads(command,
+        add(command,
+            "--parts FILE",
+            a.parts,
+            "Parts of each estimate, aligned and evaluated each: auto (new maps, jumps of the "
+            "frame, frozen poses, as doctor finds them), or a file with the first, or first and "
+            "last, stamp of each"));
   command.add_flag("-s,--correct_scale",
                    a.correct_scale,
                    "Also align the scale; without --align only the scale");
@@ -126,6 +132,10 @@ void declare_metrics(CLI::App& command, EvalArguments& a) {
                      "Metric to evaluate instead of the default ones, see `list metrics`; options "
                      "follow a colon (rpe:delta=5,unit=m); repeat for several")
                      ->allow_extra_args(false);
+  command.add_flag("--end-error",
+                   a.end_error,
+                   "Instead, the error at the end of loops without a reference: all files should "
+                   "end where they began");
   add(command, "--plugin FILE", a.plugins, "Shared object with additional metrics")
       ->allow_extra_args(false);
   command

@@ -104,6 +104,11 @@ struct PairEvaluation {
     if (own.coverage.pairs == 0 && failure.why.starts_with("no pose of the estimate")) {
       failure.why += pairing_remedies(reference.poses, estimate.poses, rules);
     }
+    const bool have_stamps =
+        reference.clock.clock == Clock::stamps && estimate.clock.clock == Clock::stamps;
+    if (have_stamps && failure.why.starts_with("association index: the reference has")) {
+      failure.why += "; --association nearest pairs them by their stamps";
+    }
     if (failure.status == Status::ok) return;
     own.why_failed = failure.why;
     add_failure(out.result, failure, files.sweep);
@@ -271,9 +276,11 @@ FileEvaluation evaluate_poses(const Cell& cell,
   std::future<std::vector<Note>> doctor =
       std::async(is_large ? std::launch::async : std::launch::deferred, [&] {
         if (!files.arguments.diagnose) return std::vector<Note>{};
-        const bool by_index = std::ranges::all_of(files.sweep.protocols, [](const auto& each) {
+        const bool pairs_rows = std::ranges::all_of(files.sweep.protocols, [](const auto& each) {
           return each.rules.association == metrics::Association::index;
         });
+        // Rows of unequal numbers are no pairs: the stamps tell more.
+        const bool by_index = pairs_rows && reference.read.clock.rows == estimate.clock.rows;
         const bool has_stamps = !by_index && reference.read.clock.clock == Clock::stamps &&
                                 estimate.clock.clock == Clock::stamps;
         Trajectory kept_reference, kept_estimate;

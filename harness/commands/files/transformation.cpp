@@ -12,6 +12,7 @@
 
 #include "datasets/core/mirrored.hpp"
 #include "datasets/files/regular_file.hpp"
+#include "metrics/doctor/order_checks.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -162,8 +163,10 @@ TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions) {
   }
   check_factor("--scale", conventions.scale);
   check_factor("--stamp-scale", conventions.stamp_scale);
-  if (conventions.invert_poses && lacks_rotations(file.poses)) {
-    throw InputError("--invert-poses needs rotations, the file has only positions");
+  const bool needs_rotations = conventions.invert_poses || conventions.chain;
+  if (needs_rotations && lacks_rotations(file.poses)) {
+    throw InputError(std::string(conventions.chain ? "--chain" : "--invert-poses") +
+                     " needs rotations, the file has only positions");
   }
   const Matrix3 axes =
       conventions.axes.empty() ? Matrix3::Identity() : signed_permutation(conventions.axes);
@@ -175,6 +178,7 @@ TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions) {
     stamp *= conventions.stamp_scale;
     if (conventions.invert_poses) pose = normalized(pose.inverse());
   }
+  if (conventions.chain) file.poses = metrics::chained(file.poses);
   Conventions of_stamps;
   of_stamps.stamp_scale = conventions.stamp_scale;
   if (conventions != of_stamps) file.covariances.clear();

@@ -40,6 +40,7 @@ struct Conventions {
   double scale = 1.0;         ///< factor of the positions
   double stamp_scale = 1.0;   ///< factor of the stamps
   bool invert_poses = false;  ///< body_from_world -> world_from_body
+  bool chain = false;         ///< rows are motions from one row to the next: compose them
 
   friend bool operator==(const Conventions&, const Conventions&) = default;
 };

@@ -10,6 +10,7 @@
 #include "datasets/core/covariance.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval/eval_figures.hpp"
+#include "harness/commands/eval/evaluated_parts.hpp"
 #include "harness/commands/eval/evaluation_result.hpp"
 #include "harness/commands/files/trajectory_selection.hpp"
 #include "harness/commands/files/transformation.hpp"
@@ -188,12 +189,30 @@ int crop(const TrajArguments& a) {
   });
 }
 
+int split(const TrajArguments& a) {
+  const bool is_automatic = a.parts == "auto";
+  if (is_automatic && a.reference.empty()) {
+    throw InputError("split: expected --ref FILE, or a file with the parts (--parts FILE)");
+  }
+  std::optional<NamedTrajectory> reference;
+  if (!a.reference.empty()) reference = read_named(a.reference, a.reading);
+  const Trajectory none;
+  const Trajectory& truth = reference ? reference->file.poses : none;
+  NamedTrajectories out;
+  for (const NamedTrajectory& each : read_all_named(a.files, a.reading)) {
+    for (NamedTrajectory& part : split_file(each, a.parts, truth, a.offset)) {
+      out.push_back(std::move(part));
+    }
+  }
+  return write_all(a, out);
+}
+
 int transform(const TrajArguments& a) {
   const std::string& given = a.left.empty() ? a.right : a.left;
   if (given.empty() && (a.invert || a.conventions == Conventions{})) {
     throw InputError(
         "transform: expected --left or --right (also for --invert), or any of --quaternion-order, "
-        "--conjugate, --axes, --mirror, --scale, --stamp-scale, --invert-poses");
+        "--conjugate, --axes, --mirror, --scale, --stamp-scale, --invert-poses, --chain");
   }
   std::optional<Similarity> similarity;
   if (!given.empty()) similarity = read_similarity(given);
@@ -272,6 +291,7 @@ void add_traj(CLI::App& app, int& exit_code) {
                 {"convert", convert},
                 {"merge", merge_files},
                 {"crop", crop},
+                {"split", split},
                 {"transform", transform},
                 {"align", align_files},
                 {"plot", plot_files}},

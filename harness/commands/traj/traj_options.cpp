@@ -94,6 +94,18 @@ void declare_transform(CLI::App& verb, TrajArguments& a) {
       ->check(finite_number());
   verb.add_flag(
       "--invert-poses", c.invert_poses, "Invert each pose: body_from_world to world_from_body");
+  verb.add_flag("--chain", c.chain, "Compose rows that are motions from one row to the next");
+}
+
+void declare_parts(CLI::App& verb, TrajArguments& a) {
+  reads(
+      verb,
+      add(verb, "--ref FILE", a.reference, "Reference trajectory, which shows where parts begin"));
+  reads(verb,
+        add(verb,
+            "--parts FILE",
+            a.parts,
+            "auto (with --ref), or a file with the first, or first and last, stamp of each part"));
 }
 
 void declare_alignment(CLI::App& verb, TrajArguments& a) {
@@ -122,6 +134,9 @@ const std::vector<VerbInfo>& verb_infos() {
        "or see --repeats",
        {declare_output}},
       {"crop", "Keep the poses in a time range", {declare_crop, declare_output}},
+      {"split",
+       "Write the parts that have a frame of their own, as eval --parts finds them",
+       {declare_parts, declare_offset, declare_output}},
       {"transform",
        "Multiply all poses by a transform, or change their conventions",
        {declare_transform, declare_output}},

@@ -38,6 +38,7 @@ struct TrajArguments {
   std::string right;
   bool invert = false;
   bool propagate = false;
+  std::string parts = "auto";  ///< of `split`
   Conventions conventions;
   std::string association = "evo";
   double max_diff = 0.01;  ///< [s]
