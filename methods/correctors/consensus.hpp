@@ -1,6 +1,10 @@
 /// Pose-graph optimisation with the closures that agree, and with calibrated covariances.
 #pragma once
 
+#include <memory>
+#include <utility>
+
+#include "methods/correctors/consensus/judgement.hpp"
 #include "methods/method.hpp"
 
 namespace loopbench::methods {
@@ -16,7 +20,9 @@ class Consensus final : public Corrector {
   struct Options {
     bool covariances = false;
   };
-  explicit Consensus(const Options& options) : options_(options) {}
+  /// `known`: judgement of the problem that will be corrected, if it was computed before.
+  explicit Consensus(const Options& options, std::shared_ptr<const ClosureJudgement> known = {})
+      : options_(options), known_(std::move(known)) {}
 
   /// Declines what judge_closures() does not judge, anchors among it, and names pose_graph.
   std::string why_declined(const Problem& problem) const override;
@@ -28,6 +34,7 @@ class Consensus final : public Corrector {
 
  private:
   Options options_;
+  std::shared_ptr<const ClosureJudgement> known_;
 };
 
 template <class Visit>

@@ -11,9 +11,9 @@
 
 #include "methods/correctors/anchors.hpp"
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/consensus/calibrated.hpp"
 #include "methods/correctors/looped_chain.hpp"
 #include "methods/correctors/plausibility.hpp"
-#include "methods/correctors/variance_components.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -90,7 +90,8 @@ std::optional<Problem> used_part(const Problem& problem, Dual::Use use) {
 
 Trajectory correct_rigid(const Dual::Options& options, const Problem& stated, Report& report) {
   std::optional<Problem> scaled;
-  if (options.rescale) scaled = with_estimated_factors(stated, report);
+  note_old_name(options.rescale, report);
+  if (options.calibrate || options.rescale) scaled = calibrated(stated, report);
   const Problem& problem = scaled ? *scaled : stated;
   const NoiseModel noise_model = stated_noise_model(problem);
   const LoopedChain solved = lowest_minimum(
@@ -98,7 +99,7 @@ Trajectory correct_rigid(const Dual::Options& options, const Problem& stated, Re
       noise_model,
       {options.max_iterations, options.tolerance, options.start == Dual::Start::automatic},
       report);
-  report_chi2(2.0 * solved.cost(), degrees_of_freedom(problem), report);
+  report_chi2(2.0 * solved.cost(), degrees_of_freedom(problem), problem, report);
   if (options.covariances) {
     report.covariances = report.time("covariances", [&] { return solved.covariances(); });
   }
@@ -140,7 +141,7 @@ Trajectory correct_anchored(const Dual::Options& options, const Problem& stated,
   if (!is_at_rest) report.notes.push_back("the first pose was still moving when iterations ended");
   report.count("iterations", iterations);
   report.count("chi2", chi2);
-  report_chi2(chi2, degrees_of_freedom(problem) + used.degrees_of_freedom(), report);
+  report_chi2(chi2, degrees_of_freedom(problem) + used.degrees_of_freedom(), stated, report);
   return problem.keyframes;
 }
 
@@ -152,6 +153,9 @@ std::string Dual::why_declined(const Problem& stated) const {
   if (std::string fault = anchors_fault(problem); !fault.empty()) return fault;
   if (has_scale_drift(problem)) {
     return "edges change the scale, which this method does not estimate: use pose_graph";
+  }
+  if (is_calibrated()) {
+    if (std::string why = why_not_calibrated(problem); !why.empty()) return why;
   }
   return loops_fault(problem, options_.max_closures);
 }

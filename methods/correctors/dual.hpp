@@ -23,8 +23,8 @@ namespace loopbench::methods {
 ///
 /// The initial values are the keyframes. If chi2 at that minimum is larger than its distribution
 /// allows, chordal relaxation (initial_values.hpp) provides a second start, and the lower minimum
-/// is returned. `rescale` first multiplies the odometry's stated covariances by two factors
-/// estimated from the loops (variance_components.hpp).
+/// is returned. `calibrate` first replaces the stated deviations by those that the closures show
+/// (calibrated.hpp).
 ///
 /// Anchors are loops from a fixed world in which only a position is measured: three rows of the
 /// same equations. Their start is the keyframes, aligned to the anchors, alone.
@@ -40,7 +40,8 @@ class Dual final : public Corrector {
     double tolerance = 1e-10;
     int max_closures = 300;
     Start start = Start::automatic;
-    bool rescale = false;
+    bool calibrate = false;
+    bool rescale = false;  ///< old name of `calibrate`
     Use use = Use::all;
     bool covariances = false;
   };
@@ -49,17 +50,19 @@ class Dual final : public Corrector {
   /// Declines, among others, edges that change the scale.
   std::string why_declined(const Problem& problem) const override;
 
-  /// `rescale` knows no anchors.
+  /// `calibrate` knows no anchors.
   bool accepts_anchors() const override {
-    return !options_.rescale || options_.use == Use::closures;
+    return !is_calibrated() || options_.use == Use::closures;
   }
 
   /// Counts: `iterations`, `chi2_before`, `chi2` (the sum above), `chi2_per_dof`,
-  /// and with `rescale` the factors `factor_t`, `factor_r` on standard deviations. Notes:
+  /// and with `calibrate` the factors `factor_t`, `factor_r`, `factor_closures`. Notes:
   /// implausible chi2, two minima. Throws std::runtime_error when the cost is not finite.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
+  bool is_calibrated() const { return options_.calibrate || options_.rescale; }
+
   Options options_;
 };
 
@@ -88,10 +91,12 @@ void fields(Dual::Options& o, Visit visit) {
   visit("start",
         o.start,
         "initial values; auto: keyframes, then chordal relaxation if chi2 is implausibly large");
-  visit("rescale",
-        o.rescale,
-        "multiply the odometry's translation and rotation covariances by factors estimated from "
-        "the loops");
+  visit(
+      "calibrate",
+      o.calibrate,
+      "replace the stated deviations by those that the closures show, as consensus estimates them; "
+      "all closures are used");
+  visit("rescale", o.rescale, "old name of calibrate");
   visit("use", o.use, "measurements that are used, to compare what closures and anchors add");
   visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
 }

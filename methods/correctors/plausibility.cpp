@@ -6,6 +6,8 @@
 #include <cmath>
 #include <span>
 
+#include "methods/correctors/consensus/judgement.hpp"
+
 namespace loopbench::methods {
 namespace {
 
@@ -53,14 +55,14 @@ bool is_too_large(double chi2, std::size_t dof) {
   return dof > 0 && chi2 > static_cast<double>(dof) * quantile(kNormalQuantile, dof);
 }
 
-void report_chi2(double chi2, std::size_t dof, Report& report) {
+void report_chi2(double chi2, std::size_t dof, const Problem& problem, Report& report) {
   constexpr double kFar = 4.0;
   if (dof == 0 || !std::isfinite(chi2)) return;
   const double ratio = chi2 / static_cast<double>(dof);
   report.count("chi2_per_dof", ratio);
   const bool is_high = ratio > kFar && is_too_large(chi2, dof);
   const bool is_low = ratio < 1.0 / kFar && ratio < quantile(-kNormalQuantile, dof);
-  if (!is_high && !is_low) return;
+  if ((!is_high && !is_low) || why_not_judged(problem).empty()) return;
   report.notes.push_back(
       fmt::format("chi2 per degree of freedom is {:.3g} with {} degrees of freedom: the stated "
                   "covariances are too {}",

@@ -23,10 +23,11 @@ std::size_t degrees_of_freedom(const Problem& problem);
 /// Hilferty 1931).
 bool is_too_large(double chi2, std::size_t dof);
 
-/// Adds the count `chi2_per_dof` [-]. Adds a note if chi2 is outside the central 99.9 % of its
-/// distribution and chi2_per_dof differs from 1 by more than a factor of 4 (standard deviations
-/// wrong by a factor of 2). Adds nothing without degrees of freedom.
-void report_chi2(double chi2, std::size_t dof, Report& report);
+/// Adds the count `chi2_per_dof` [-]. If the closures cannot be judged (why_not_judged()), adds a
+/// note if chi2 is outside the central 99.9 % of its distribution and chi2_per_dof differs from 1
+/// by more than a factor of 4 (standard deviations wrong by a factor of 2); where they can, their
+/// judgement states what is wrong. Adds nothing without degrees of freedom.
+void report_chi2(double chi2, std::size_t dof, const Problem& problem, Report& report);
 
 /// Whether a closure's information exceeds 1e6 times the largest information of the odometry, for
 /// translation or rotation. A closure with a thousandth of an odometry edge's deviation takes a

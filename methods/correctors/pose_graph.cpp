@@ -8,10 +8,10 @@
 
 #include "methods/correctors/anchors.hpp"
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/consensus/calibrated.hpp"
 #include "methods/correctors/gnc.hpp"
 #include "methods/correctors/looped_chain.hpp"
 #include "methods/correctors/plausibility.hpp"
-#include "methods/correctors/variance_components.hpp"
 #include "methods/solvers/graph_covariance.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
@@ -240,7 +240,7 @@ Trajectory optimised(const Problem& problem,
     const std::size_t edges = problem.odometry.size() + kept_count(run.weights);
     const std::size_t dof =
         degrees_of_freedom(problem.keyframes.size(), edges, dimensions(run.settings.group));
-    report_chi2(2.0 * summary.cost, dof + used.degrees_of_freedom(), report);
+    report_chi2(2.0 * summary.cost, dof + used.degrees_of_freedom(), problem, report);
   }
   if (is_dcs) note_ignored(dcs_weights(run), report);
   if (!summary.converged) {
@@ -270,10 +270,8 @@ std::string PoseGraphOptimizer::why_declined(const Problem& problem) const {
     return "group is sim3, which has no anchors";
   if (options_.group == Poses::se2 && !problem.planar)
     return "group is se2, but the problem is not planar";
-  if (options_.rescale) {
-    if (has_scale_drift(problem))
-      return "rescale requires edges of scale 1, but edges change the scale";
-    if (std::string fault = why_no_chain(problem); !fault.empty()) return fault;
+  if (is_calibrated()) {
+    if (std::string why = why_not_calibrated(problem); !why.empty()) return why;
   }
   if (const auto unreached = first_unconnected(problem)) {
     return "the graph is not connected: no path from keyframe " + problem.name_of(0) +
@@ -293,8 +291,9 @@ Trajectory PoseGraphOptimizer::correct(const Problem& stated, Report& report) co
     changed = with_bounded_stiffness(problem());
   };
   bound_stiffness();
-  if (options_.rescale) {
-    changed = with_estimated_factors(problem(), report);
+  note_old_name(options_.rescale, report);
+  if (is_calibrated()) {
+    changed = calibrated(problem(), report);
     bound_stiffness();
   }
   return optimised(problem(), options_, report);

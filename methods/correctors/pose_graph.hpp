@@ -45,7 +45,8 @@ class PoseGraphOptimizer final : public Corrector {
     double scale_sigma = 0.01;
     int max_iterations = 1000;
     double tolerance = 1e-14;
-    bool rescale = false;
+    bool calibrate = false;
+    bool rescale = false;  ///< old name of `calibrate`
     bool covariances = false;
   };
   explicit PoseGraphOptimizer(const Options& options) : options_(options) {}
@@ -54,17 +55,19 @@ class PoseGraphOptimizer final : public Corrector {
   /// SE(2).
   std::string why_declined(const Problem& problem) const override;
 
-  /// `gnc` and `rescale` know no anchors.
-  bool accepts_anchors() const override { return options_.gnc == Gnc::off && !options_.rescale; }
+  /// `gnc` and `calibrate` know no anchors.
+  bool accepts_anchors() const override { return options_.gnc == Gnc::off && !is_calibrated(); }
 
   /// Counts: `iterations` (linear solves), `chi2_before`, `chi2` (sum of squared Mahalanobis
   /// errors; with a loss `robust_chi2`, sum of losses), without a loss `chi2_per_dof`, with
-  /// `rescale` the factors `factor_t` and `factor_r` on standard deviations, and with GNC
+  /// `calibrate` the factors `factor_t`, `factor_r`, `factor_closures` on deviations, and with GNC
   /// `gnc_rounds` and `closures_kept`. States covariances if asked (graph_covariance.hpp). Throws
   /// std::runtime_error when the solver finds no usable solution.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
+  bool is_calibrated() const { return options_.calibrate || options_.rescale; }
+
   Options options_;
 };
 
@@ -108,10 +111,12 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         o.tolerance,
         "convergence threshold: relative change of the cost [-]",
         GreaterThan{0.0});
-  visit("rescale",
-        o.rescale,
-        "multiply the odometry's translation and rotation covariances by factors estimated from "
-        "the loops (chains only)");
+  visit(
+      "calibrate",
+      o.calibrate,
+      "replace the stated deviations by those that the closures show, as consensus estimates them; "
+      "all closures are used");
+  visit("rescale", o.rescale, "old name of calibrate");
   visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
 }
 

@@ -1,14 +1,13 @@
-// chi2 per degree of freedom, as reported by dual and pose_graph; factors on the odometry's
-// covariances, estimated from the loops.
+// chi2 per degree of freedom, as reported by dual and pose_graph; deviations that the closures show
+// in place of those stated.
 #include "methods/correctors/plausibility.hpp"
 
 #include <gtest/gtest.h>
 
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
-#include "methods/correctors/variance_components.hpp"
 #include "tests/support/corrected.hpp"
-#include "tests/support/random_chain.hpp"
+#include "tests/support/problems.hpp"
 #include "tests/support/simulated_drive.hpp"
 
 namespace loopbench::test::plausibility_test {
@@ -49,10 +48,15 @@ TEST(Plausibility, SimulatedDatasetsStateTheirTrueNoise) {
   }
 }
 
-TEST(Plausibility, ImplausibleCovariancesAreReported) {
+TEST(Plausibility, ImplausibleCovariancesAreReportedWhereClosuresAreNotJudged) {
   const Problem problem = simulated(SimulatedPath::room, false, 2);
   for (const double factor : {1e-2, 1e2}) {
-    const Problem wrong = with_covariances(problem, factor);
+    const Problem judged = with_covariances(problem, factor);
+    const Problem wrong = with_anchors(judged, Vector3::Zero());
+    for (const Report& report : {reported<Dual>(judged), reported<PoseGraphOptimizer>(judged)}) {
+      EXPECT_TRUE(report.notes.empty());
+      EXPECT_GT(std::abs(std::log(count(report, "chi2_per_dof"))), std::log(10.0));
+    }
     for (const Report& report : {reported<Dual>(wrong), reported<PoseGraphOptimizer>(wrong)}) {
       ASSERT_EQ(report.notes.size(), 1u) << factor;
       EXPECT_NE(report.notes[0].find(factor < 1.0 ? "too small" : "too large"), std::string::npos)
@@ -62,11 +66,12 @@ TEST(Plausibility, ImplausibleCovariancesAreReported) {
 }
 
 TEST(Plausibility, FewDegreesOfFreedomMayBeFarFromOne) {
+  const Problem unjudged = with_anchors(circle(), Vector3::Zero());
   Report report;
-  report_chi2(0.5, 6, report);  // 0.8 % quantile of chi2 with 6 degrees of freedom
+  report_chi2(0.5, 6, unjudged, report);  // 0.8 % quantile of chi2 with 6 degrees of freedom
   EXPECT_TRUE(report.notes.empty());
   EXPECT_NEAR(count(report, "chi2_per_dof"), 0.5 / 6.0, 1e-15);
-  report_chi2(5.0, 60, report);
+  report_chi2(5.0, 60, unjudged, report);
   EXPECT_EQ(report.notes.size(), 1u);
 }
 
@@ -74,26 +79,25 @@ Sequence simulated(std::int64_t seed) {
   return simulated_drive({.closures = 10, .seed = seed, .planar = false});
 }
 
-TEST(VarianceComponents, FactorsMultiplyFullCovariances) {
-  const Problem problem = walk(3, 10, 0.1);
-  const Problem scaled = with_factors(problem, {4.0, 9.0});
-  const Matrix6 before = problem.odometry[2].information.inverse();
-  const Matrix6 after = scaled.odometry[2].information.inverse();
-  EXPECT_NEAR(after(0, 1), 4.0 * before(0, 1), 1e-12);
-  EXPECT_NEAR(after(0, 4), 6.0 * before(0, 4), 1e-12);
-  EXPECT_NEAR(after(5, 5), 9.0 * before(5, 5), 1e-12);
+/// Stated: translation 10 times too uncertain, rotation 10 times too certain.
+Problem misstated(Problem problem) {
+  Twist shrink;
+  shrink << 0.1, 0.1, 0.1, 10.0, 10.0, 10.0;
+  for (Edge& edge : problem.odometry) {
+    edge.information = (shrink.asDiagonal() * edge.information * shrink.asDiagonal()).eval();
+  }
+  return problem;
 }
 
-TEST(VarianceComponents, EstimatesWrongVariancesFromTheLoops) {
-  // Stated: translation 10 times too uncertain, rotation 10 times too certain. Each estimated
-  // deviation is correct up to a factor of 3, and much better on average.
+TEST(Calibrate, EstimatesWrongDeviationsFromTheClosures) {
+  // Each estimated deviation is correct up to a factor of 3, and much better on average.
   double log_t = 0.0, log_r = 0.0;
   constexpr int kSeeds = 6;
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    const Problem wrong = with_factors(simulated(seed).problem, {100.0, 0.01});
-    const VarianceFactors found = variance_factors(wrong);
-    const double t = 0.5 * std::log(found.translation / 0.01);
-    const double r = 0.5 * std::log(found.rotation / 100.0);
+    Report report;
+    corrected<Dual>(misstated(simulated(seed).problem), {.calibrate = true}, &report);
+    const double t = std::log(count(report, "factor_t") / 0.1);
+    const double r = std::log(count(report, "factor_r") / 10.0);
     EXPECT_LT(std::abs(t), std::log(3.0)) << seed;
     EXPECT_LT(std::abs(r), std::log(3.0)) << seed;
     log_t += t / kSeeds, log_r += r / kSeeds;
@@ -102,29 +106,44 @@ TEST(VarianceComponents, EstimatesWrongVariancesFromTheLoops) {
   EXPECT_NEAR(log_r, 0.0, std::log(1.5));
 }
 
-TEST(VarianceComponents, RescaledDualIsAsGoodAsWithTheTrueCovariances) {
-  double right = 0.0, wrong = 0.0, with_estimated_factors = 0.0;
+TEST(Calibrate, DualIsAsGoodAsWithTheTrueCovariances) {
+  double right = 0.0, wrong = 0.0, calibrated = 0.0;
   for (int seed = 1; seed <= 6; ++seed) {
     const Sequence sequence = simulated(seed);
-    const Problem misstated = with_factors(sequence.problem, {100.0, 0.01});
+    const Problem stated = misstated(sequence.problem);
     const Trajectory best = corrected<Dual>(sequence.problem);
     const Trajectory truth = at_stamps_of(best, sequence.reference);
     right += rmse(best, truth);
-    wrong += rmse(corrected<Dual>(misstated), truth);
-    with_estimated_factors += rmse(corrected<Dual>(misstated, {.rescale = true}), truth);
+    wrong += rmse(corrected<Dual>(stated), truth);
+    calibrated += rmse(corrected<Dual>(stated, {.calibrate = true}), truth);
   }
   EXPECT_GT(wrong, 1.1 * right);
-  EXPECT_LT(with_estimated_factors, 1.03 * right);
+  EXPECT_LT(calibrated, 1.03 * right);
 }
 
-TEST(VarianceComponents, DualAndPoseGraphAgreeWithRescale) {
-  const Problem misstated = with_factors(simulated(2).problem, {100.0, 0.01});
-  Report a, b;
-  const Trajectory dual = corrected<Dual>(misstated, {.rescale = true}, &a);
-  const Trajectory graph = corrected<PoseGraphOptimizer>(misstated, {.rescale = true}, &b);
+TEST(Calibrate, DualAndPoseGraphAgreeAndTakeTheOldName) {
+  const Problem stated = misstated(simulated(2).problem);
+  Report a, b, old;
+  const Trajectory dual = corrected<Dual>(stated, {.calibrate = true}, &a);
+  const Trajectory graph = corrected<PoseGraphOptimizer>(stated, {.calibrate = true}, &b);
   EXPECT_EQ(count(a, "factor_t"), count(b, "factor_t"));
   EXPECT_EQ(count(a, "factor_r"), count(b, "factor_r"));
   EXPECT_LT(rmse(dual, graph), 1e-3);
+  expect_close(corrected<Dual>(stated, {.rescale = true}, &old), dual, 0.0);
+  EXPECT_TRUE(a.notes.empty());
+  ASSERT_EQ(old.notes.size(), 1u);
+  EXPECT_EQ(old.notes[0], "rescale is the old name of calibrate");
+}
+
+TEST(Calibrate, KeepsStatedDeviationsWhereTheClosuresDoNotDecide) {
+  Problem problem = simulated(1).problem;
+  problem.closures.resize(1);
+  problem.closures.front().from_from_to.translation += Vector3(300.0, 200.0, 100.0);
+  Report report;
+  const Trajectory with = corrected<Dual>(problem, {.calibrate = true}, &report);
+  EXPECT_EQ(count(report, "factor_t"), 1.0);
+  EXPECT_EQ(report.notes.size(), 1u);
+  expect_close(with, corrected<Dual>(problem), 1e-9);
 }
 
 }  // namespace
