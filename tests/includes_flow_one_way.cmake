@@ -4,7 +4,7 @@
 set(may_include_datasets/core "datasets/core")
 set(may_include_datasets "datasets")
 set(may_include_methods "datasets/core|methods")
-set(may_include_metrics "datasets/core|methods/solvers|metrics")
+set(may_include_metrics "datasets/core|methods/correctors/consensus|methods/solvers|metrics")
 set(may_include_harness "datasets|methods|metrics|harness")
 
 # Order within the parts: an entry (a folder, or the interface of a part and its catalogue) may include

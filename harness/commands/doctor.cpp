@@ -16,6 +16,7 @@
 #include "harness/commands/standard_output.hpp"
 #include "harness/sweep/text/counted.hpp"
 #include "harness/sweep/text/printable.hpp"
+#include "methods/correctors/consensus/judgement.hpp"
 #include "metrics/doctor/diagnose.hpp"
 #include "metrics/doctor/graph_checks.hpp"
 
@@ -42,7 +43,8 @@ Diagnosed of_closures(const std::string& name,
   Diagnosed out{name, {}};
   out.result.findings = std::move(findings);
   const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
-  out.result.has_checked = is_chain && !problem.closures.empty();
+  const bool is_judged = methods::why_not_judged(problem).empty();
+  out.result.has_checked = (is_chain || is_judged) && !problem.closures.empty();
   if (!out.result.has_checked) {
     out.result.unchecked.emplace_back(problem.closures.empty()
                                           ? "closures, information: there are no closures"

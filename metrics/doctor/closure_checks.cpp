@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "metrics/doctor/graph_checks.hpp"
+#include "metrics/doctor/judged_problem.hpp"
 #include "metrics/doctor/sampling.hpp"
 
 namespace loopbench::metrics {
@@ -160,26 +162,15 @@ std::optional<InputFinding> check_information(const std::vector<const LoopPaths*
                       found};
 }
 
-}  // namespace
-
-std::vector<InputFinding> check_closures(const Problem& problem) {
+/// Closures that are not judged, because edges have scales, or that do not decide.
+std::vector<InputFinding> check_by_medians(const std::vector<LoopPaths>& loops,
+                                           const Chain& chain,
+                                           const Problem& problem) {
   std::vector<InputFinding> out;
-  const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
-  if (problem.closures.empty() || !is_chain) return out;
-  std::vector<Edge> closures = problem.closures;
-  const Chain chain = chain_of(problem);
-  if (auto found = remove_placeholders(closures, chain)) out.push_back(*found);
-  const std::vector<LoopPaths> loops = loop_paths(closures, chain);
-  auto repair = find_closure_repair(loops, chain);
-  // Over odometry with scales, rotations alone are compared: half as much evidence.
-  if (repair && loops.size() >= (chain.has_scale ? 2 * kFewestLoops : kFewestLoops)) {
-    out.push_back(std::move(*repair));
-    return out;
-  }
   std::vector<CheckedClosure> found = contradicted_closures(loops, chain);
   std::optional<InputFinding> information;
-  // More false closures would show no information; nor do closures that a convention may explain.
-  if (!repair && 3 * found.size() < loops.size()) {
+  // More false closures would show no information.
+  if (3 * found.size() < loops.size()) {
     std::vector<const LoopPaths*> others;
     for (const LoopPaths& each : loops) {
       if (std::ranges::count(found, &each, &CheckedClosure::paths) == 0) others.push_back(&each);
@@ -194,6 +185,39 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   }
   if (!found.empty()) out.push_back(contradiction(found, loops.size(), chain, problem));
   if (information) out.push_back(std::move(*information));
+  return out;
+}
+
+}  // namespace
+
+std::vector<InputFinding> check_closures(const Problem& problem,
+                                         const methods::ClosureJudgement* known) {
+  std::vector<InputFinding> out;
+  if (problem.closures.empty()) return out;
+  Problem checked = problem;  // without the closures found before
+  JudgedProblem judged(checked, known);
+  const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
+  if (!is_chain) return judged.findings();
+  const Chain chain = chain_of(problem);
+  if (!judged.is_as_stated()) {
+    if (auto found = remove_placeholders(checked.closures, chain)) {
+      out.push_back(*found);
+      judged.forget();
+    }
+    const std::vector<LoopPaths> loops = loop_paths(checked.closures, chain);
+    const auto repair = find_closure_repair(loops, chain);
+    // Over odometry with scales, rotations alone are compared: half as much evidence.
+    const std::size_t fewest = chain.has_scale ? 2 * kFewestLoops : kFewestLoops;
+    if (repair) {
+      if (loops.size() >= fewest) out.push_back(*repair);
+      return out;
+    }
+    if (!judged.is_decided()) {
+      std::ranges::move(check_by_medians(loops, chain, problem), std::back_inserter(out));
+      return out;
+    }
+  }
+  std::ranges::move(judged.findings(), std::back_inserter(out));
   return out;
 }
 

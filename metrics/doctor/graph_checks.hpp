@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "datasets/core/problem.hpp"
+#include "methods/correctors/consensus/judgement.hpp"
 #include "metrics/doctor/finding.hpp"
 #include "metrics/doctor/loop_chain.hpp"
 
@@ -27,11 +28,14 @@ std::optional<InputFinding> check_loop_stamps(const std::vector<double>& loops,
 /// Compares closures with the odometry, without a reference:
 /// - identities that were not measured;
 /// - direction and conventions, see find_closure_repair(), from six closures in graphs with scales;
-/// - gaps of closures that the odometry or most other closures contradict;
-/// - information, by the median chi-squared of the gaps (above 100 or below 10^-4), without the
-///   closures found before, and only if these are less than a third and no convention explains
-///   them.
-/// Nothing if the odometry is no chain. O(closures^2 + keyframes).
-std::vector<InputFinding> check_closures(const Problem& problem);
+/// - closures that the others contradict, and deviations that are not those stated, as judged
+///   together by judge_closures(). In graphs with scales, which that does not judge, or if the
+///   closures do not decide: gaps of closures that the odometry or most other closures contradict,
+///   and information by the median chi-squared of the gaps (above 100 or below 10^-4).
+/// Identities and conventions are not accused if nearly all closures agree with the stated
+/// deviations. Where the odometry is no chain, only the judgement is used. `known`: judgement of
+/// this problem; null: it is computed. O(closures^2 + keyframes).
+std::vector<InputFinding> check_closures(const Problem& problem,
+                                         const methods::ClosureJudgement* known = nullptr);
 
 }  // namespace loopbench::metrics

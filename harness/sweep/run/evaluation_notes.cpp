@@ -217,8 +217,8 @@ std::vector<Note> doctor_notes(const Sequence& sequence, const Sweep& sweep) {
   return out;
 }
 
-std::vector<Note> closure_notes(const Problem& problem) {
-  return notes_of(metrics::check_closures(problem));
+std::vector<Note> closure_notes(const Problem& problem, const methods::ClosureJudgement* known) {
+  return notes_of(metrics::check_closures(problem, known));
 }
 
 }  // namespace loopbench::harness

@@ -7,6 +7,7 @@
 #include "datasets/core/sequence.hpp"
 #include "harness/sweep/model/note.hpp"
 #include "harness/sweep/model/sweep.hpp"
+#include "methods/correctors/consensus/judgement.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
@@ -43,6 +44,8 @@ std::vector<Note> doctor_notes(const ReadPair& pair,
 std::vector<Note> doctor_notes(const Sequence& sequence, const Sweep& sweep);
 
 /// A note for each finding about closures and information with a confidence of at least 0.5.
-std::vector<Note> closure_notes(const Problem& problem);
+/// `known`: judgement of the closures of this problem; null: it is computed.
+std::vector<Note> closure_notes(const Problem& problem,
+                                const methods::ClosureJudgement* known = nullptr);
 
 }  // namespace loopbench::harness

@@ -1,0 +1,117 @@
+#include "metrics/doctor/judged_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "methods/correctors/consensus/judgement_text.hpp"
+
+namespace loopbench::metrics {
+namespace {
+
+/// Factor on the odometry's deviations, of translation and rotation [-].
+double odometry_factor(const methods::EstimatedFactors& of) {
+  return std::sqrt(of.translation * of.rotation);
+}
+
+/// Distance travelled up to each keyframe [m].
+std::vector<double> distances(const Problem& problem) {
+  std::vector<double> out(problem.keyframes.size(), 0.0);
+  for (const Edge& edge : problem.odometry) out[edge.to] = edge.from_from_to.translation.norm();
+  for (std::size_t k = 1; k < out.size(); ++k) out[k] += out[k - 1];
+  return out;
+}
+
+}  // namespace
+
+JudgedProblem::JudgedProblem(const Problem& problem, const methods::ClosureJudgement* known)
+    : problem_(problem) {
+  if (known != nullptr) {
+    judgement_ = *known;
+  } else {
+    forget();
+  }
+}
+
+void JudgedProblem::forget() {
+  judgement_.reset();
+  if (!problem_.anchors.empty()) {  // they are no closures
+    Problem without = problem_;
+    without.anchors.clear();
+    if (methods::why_not_judged(without).empty()) judgement_ = methods::judge_closures(without);
+  } else if (methods::why_not_judged(problem_).empty()) {
+    judgement_ = methods::judge_closures(problem_);
+  }
+}
+
+bool JudgedProblem::is_as_stated() const {
+  constexpr double kUsual = 3.0;      // stated deviations are mostly right within this factor
+  constexpr double kNearlyAll = 0.8;  // of the closures
+  if (!is_decided()) return false;
+  const methods::EstimatedFactors& of = judgement_->factors;
+  return std::max({of.translation, of.rotation, of.closures}) < kUsual &&
+         static_cast<double>(judgement_->agreeing) >=
+             kNearlyAll * static_cast<double>(problem_.closures.size());
+}
+
+std::vector<InputFinding> JudgedProblem::findings() const {
+  std::vector<InputFinding> out;
+  if (!is_decided()) return out;
+  const auto wrong = information();
+  if (auto found = gap(!wrong)) out.push_back(std::move(*found));
+  if (wrong) out.push_back(*wrong);
+  return out;
+}
+
+/// Closures that are 100 times likelier outliers. Where there are few, or the stated deviations are
+/// far from those found, also with a gap that no odometry leaves.
+std::optional<InputFinding> JudgedProblem::gap(bool is_drift_known) const {
+  constexpr double kSure = 4.605170185988091;  // ln 100
+  constexpr double kMostDrift = 0.35;          // of the length of a loop
+  constexpr std::size_t kFewest = 4;
+  const bool needs_gap = !is_drift_known || problem_.closures.size() < kFewest;
+  const std::vector<double> at = needs_gap ? distances(problem_) : std::vector<double>{};
+  std::vector<std::size_t> found = methods::disagreeing_closures(*judgement_);
+  std::erase_if(found, [&](std::size_t k) {
+    const methods::JudgedClosure& each = judgement_->closures[k];
+    const Edge& edge = problem_.closures[k];
+    return each.log_odds > -kSure ||
+           (needs_gap && each.metres < kMostDrift * (at[edge.to] - at[edge.from]));
+  });
+  if (found.empty()) return std::nullopt;
+  const double most = -judgement_->closures[found.front()].log_odds / kSure;
+  return InputFinding{
+      Fault::closure_gap,
+      fmt::format("{} of {} closures contradict the odometry or other closures: {}",
+                  found.size(),
+                  problem_.closures.size(),
+                  methods::closures_text(problem_, *judgement_, found)),
+      "check them; method consensus drops them",
+      1.0 - 1.0 / std::max(2.0, most),
+      static_cast<double>(found.size())};
+}
+
+std::optional<InputFinding> JudgedProblem::information() const {
+  constexpr double kTooLarge = 10.0, kTooSmall = 0.01;  // drift exceeds noise
+  const methods::EstimatedFactors& of = judgement_->factors;
+  const auto is_usual = [](double factor) { return factor < kTooLarge && factor > kTooSmall; };
+  const double odometry = odometry_factor(of);
+  if (is_usual(odometry) && is_usual(of.closures)) return std::nullopt;
+  const double found = is_usual(odometry) ? of.closures : odometry;
+  return InputFinding{
+      Fault::information,
+      fmt::format("the gaps of {} loops need deviations that are not those stated (odometry: {}; "
+                  "closures: {})",
+                  judgement_->agreeing,
+                  methods::deviations_text(of),
+                  methods::direction_text(of.closures)),
+      "check the information of the edges; for a trajectory: options odometry.sigma_*, "
+      "closures.sigma_*",
+      0.8,
+      found * found};
+}
+
+}  // namespace loopbench::metrics
