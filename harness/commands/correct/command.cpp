@@ -49,12 +49,17 @@ void add_correct(CLI::App& app, int& exit_code) {
       app.add_subcommand("correct", "Correct one trajectory or pose graph with one method");
   CorrectArguments& c = a->correct;
   declare_problem(*command, c);
-  add(*command,
+  CLI::Option* const method = add(
+      *command,
       "--method METHOD",
       c.method,
       "Method, or corrector + smoother; options follow a colon (dual:max_closures=50), see `list "
-      "methods`")
-      ->capture_default_str();
+      "methods` (default: consensus, or pose_graph where that does not apply)");
+  command
+      ->add_flag("--trust-loops",
+                 c.trusts_loops,
+                 "Correct by pose_graph with all closures, also if some contradict the others")
+      ->excludes(method);
   const auto file = [&](const char* name, std::string& value, const char* help) {
     reads(*command, command->add_option(name, value, help))->type_name("FILE");
   };

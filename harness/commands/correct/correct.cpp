@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "datasets/core/closure_places.hpp"
 #include "datasets/core/covariance.hpp"
@@ -13,9 +14,13 @@
 #include "harness/commands/loops/loops.hpp"
 #include "harness/sweep/catalogue/external_methods.hpp"
 #include "harness/sweep/process/write_file.hpp"
+#include "methods/correctors/consensus.hpp"
+#include "methods/correctors/consensus/judgement_text.hpp"
 
 namespace loopbench::harness {
 namespace {
+
+constexpr const char* kConsensus = "consensus";
 
 bool is_graph(const CorrectArguments& a) { return detect_format(a.estimate) == Format::g2o; }
 
@@ -100,32 +105,46 @@ void hold_first_fixed(Correction& done) {
   }
 }
 
-/// Writes the ledger of all closures if its file is wanted, and sets the verdict on the closures
-/// that the method kept, unless it would take long.
-void judge_closures(const CorrectArguments& a, Correction& done) {
-  constexpr std::size_t kFew = 200;  // closures whose ledger takes about a second
+/// Writes the ledger of all closures.
+void write_ledger(const CorrectArguments& a, Correction& done) {
   std::string rows;
   try {
-    if (!a.ledger.empty()) {
-      LoopsResult all = loops(done.problem, a.estimate);
-      add_rejections(all);
-      rows = csv(all);
-    }
-    Problem kept =
-        without_closures(done.problem, done.report.rejected.value_or(std::vector<std::size_t>{}));
-    const bool is_quick = kept.closures.size() <= kFew || !rows.empty();
-    if (is_quick && methods::why_no_ledger(kept).empty()) {
-      LoopsResult result = loops(std::move(kept), a.estimate);
-      result.is_kept = done.report.rejected.has_value();
-      done.verdict = verdict_text(result);
-      done.is_contradicted = methods::is_contradicted(result.ledger.verdict);
-    }
+    LoopsResult all = loops(done.problem, a.estimate);
+    add_rejections(all);
+    rows = csv(all);
   } catch (const std::runtime_error& error) {  // no ledger, or the joint solution fails
-    if (!a.ledger.empty()) {
-      done.report.notes.push_back(fmt::format("{} is not written: {}", a.ledger, error.what()));
-    }
+    done.report.notes.push_back(fmt::format("{} is not written: {}", a.ledger, error.what()));
   }
   if (!rows.empty()) write_file(a.ledger, rows);
+}
+
+bool has_stage(const MethodChoice& choice, const std::string& name) {
+  return std::ranges::any_of(choice.stages, [&](const Choice& each) { return each.name == name; });
+}
+
+/// The catalogue whose consensus uses the judgement of the check.
+Catalogue with_judgement(Catalogue catalogue, const ClosureCheck& check) {
+  for (methods::MethodEntry& entry : catalogue.methods) {
+    if (entry.name != kConsensus) continue;
+    entry.make = [known = check.judgement](const Params& given) -> methods::Stage {
+      return std::unique_ptr<const methods::Corrector>(
+          std::make_unique<methods::Consensus>(with(methods::Consensus::Options{}, given), known));
+    };
+  }
+  return catalogue;
+}
+
+/// The method that is wanted, or the default for closures with this check.
+std::string method_name(const CorrectArguments& a, const std::optional<ClosureCheck>& check) {
+  if (!a.method.empty()) return a.method;
+  return check && check->judgement != nullptr && !a.trusts_loops ? kConsensus : "pose_graph";
+}
+
+/// Removes notes of the method that the sentence of the check contains.
+void settle_notes(Correction& done) {
+  if (!done.is_consensus || done.check->is_decided()) return;
+  const std::string why = methods::undecided_text(*done.check->judgement);
+  std::erase_if(done.report.notes, [&](const std::string& note) { return note.starts_with(why); });
 }
 
 /// correct(); a method that fails on the input is an InputError.
@@ -133,9 +152,10 @@ Correction corrected(Problem problem,
                      const std::string& name,
                      const MethodChoice& choice,
                      const std::vector<double>& at,
-                     const Catalogue& catalogue) {
+                     const Catalogue& catalogue,
+                     const ClosureCheck* check) {
   try {
-    return correct(std::move(problem), name, choice, at, catalogue);
+    return correct(std::move(problem), name, choice, at, catalogue, check);
   } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -191,9 +211,17 @@ FigureData before_and_after(const Correction& done) {
 }
 
 Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
-  const MethodChoice choice = method_without_reference(a.method, catalogue);
+  std::optional<MethodChoice> given;  // an unknown one is an error before the data are read
+  if (!a.method.empty()) given = method_without_reference(a.method, catalogue);
   Provenance provenance;
   Problem problem = load_problem(a, catalogue, &provenance);
+  std::optional<ClosureCheck> check;
+  const auto begin = std::chrono::steady_clock::now();
+  const bool is_checked = !given || uses_closures(*given, catalogue);
+  if (is_checked && !problem.closures.empty()) check = check_closures(problem);
+  const std::chrono::duration<double> checked = std::chrono::steady_clock::now() - begin;
+  const MethodChoice choice =
+      given ? *given : method_without_reference(method_name(a, check), catalogue);
   const bool has_measurements = !problem.closures.empty() || !problem.anchors.empty();
   if (!has_measurements && !is_graph(a) && uses_closures(choice, catalogue)) {
     throw InputError(a.estimate + ": " + choice.label +
@@ -201,10 +229,21 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   }
   std::size_t outside = 0;
   const std::vector<double> at = output_stamps(a, problem, outside);
-  Correction out = corrected(std::move(problem), a.estimate, choice, at, catalogue);
+  const bool is_consensus = check && check->judgement && has_stage(choice, kConsensus);
+  const bool is_replay = has_stage(choice, "online");  // consensus judges other problems, too
+  const Catalogue used = is_consensus && !is_replay ? with_judgement(catalogue, *check) : catalogue;
+  Correction out =
+      corrected(std::move(problem), a.estimate, choice, at, used, check ? &*check : nullptr);
   out.outside = outside;
   out.provenance = std::move(provenance);
-  if (!a.ledger.empty() || uses_closures(choice, catalogue)) judge_closures(a, out);
+  out.check = std::move(check);
+  out.is_consensus = is_consensus;
+  if (is_consensus && !is_replay) {
+    out.seconds += checked.count();
+    out.report.phases.insert(out.report.phases.begin(), {"judge", checked.count()});
+  }
+  settle_notes(out);
+  if (!a.ledger.empty()) write_ledger(a, out);
   const Rotation body_from_file = out.provenance.file_body_from_body.rotation.conjugate();
   change_body(out.problem, body_from_file);
   for (Trajectory* const poses : {&out.keyframes, &out.output}) change_body(*poses, body_from_file);

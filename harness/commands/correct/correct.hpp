@@ -8,6 +8,7 @@
 #include "datasets/core/sequence.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/answers/report/draw.hpp"
+#include "harness/commands/correct/closure_check.hpp"
 #include "harness/sweep/catalogue/catalogue.hpp"
 #include "harness/sweep/config/entry.hpp"
 #include "harness/sweep/model/sweep.hpp"
@@ -16,10 +17,12 @@
 namespace loopbench::harness {
 
 struct CorrectArguments {
-  std::string estimate;               ///< trajectory in any known format, or a g2o graph
-  std::string method = "pose_graph";  ///< NAME[:option=value,...][ + NAME[:...]]
-  std::string loops;                  ///< closure file or g2o graph for a trajectory; empty: none
-  std::string anchors;                ///< measured positions for a trajectory; empty: none
+  std::string estimate;  ///< trajectory in any known format, or a g2o graph
+  /// NAME[:option=value,...][ + NAME[:...]]; empty: consensus, or pose_graph if that does not apply
+  std::string method;
+  bool trusts_loops = false;  ///< without a method: pose_graph with all closures
+  std::string loops;          ///< closure file or g2o graph for a trajectory; empty: none
+  std::string anchors;        ///< measured positions for a trajectory; empty: none
   std::optional<double> start_equals_end = {};  ///< deviation of a closure of the ends [m]
   std::string frames;                           ///< all tracked poses of the run; empty: none
   std::vector<GivenSetting> settings;  ///< OPTION=VALUE of dataset `trajectory` or `pose_graph`
@@ -51,9 +54,9 @@ struct Correction {
   Provenance provenance = {};           ///< of the file
   double seconds = 0.0;                 ///< wall time of the method
   methods::Report report;
-  std::string out;      ///< file that was written; empty: none
-  std::string verdict;  ///< on the closures kept, verdict_text() of loops.hpp; empty: not computed
-  bool is_contradicted = false;  ///< these closures contradict each other
+  std::string out;                    ///< file that was written; empty: none
+  std::optional<ClosureCheck> check;  ///< unset: no closures, or the method uses none
+  bool is_consensus = false;          ///< the method follows the check
 };
 
 /// A method as in a config, with its options: NAME:option=value,... Throws InputError also for an
@@ -61,19 +64,21 @@ struct Correction {
 MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue);
 
 /// Runs the method on a problem in memory, which must be valid; `output` is at the stamps `at`,
-/// ascending and within the keyframes' time span. `name` is for messages. Throws InputError if the
+/// ascending and within the keyframes' time span. `name` is for messages, `closure_check` that of
+/// the problem if it was computed. Throws InputError if the
 /// method declines; other exceptions of the method are not caught.
 Correction correct(Problem problem,
                    const std::string& name,
                    const MethodChoice& choice,
                    const std::vector<double>& at,
-                   const Catalogue& catalogue);
+                   const Catalogue& catalogue,
+                   const ClosureCheck* closure_check = nullptr);
 
-/// Loads the input as the datasets `trajectory` and `pose_graph` of a sweep do, runs the method and
-/// writes the output file. Numbers are written so that reading them is bit-identical. Computes the
-/// ledger of the closures if its file is wanted, or if it takes little time; a note states why its
-/// file is not written. Throws InputError,
-/// also if the method declines; other exceptions of the method are not caught.
+/// Loads the input as the datasets `trajectory` and `pose_graph` of a sweep do, judges the
+/// closures, runs the method and writes the output file. Numbers are written so that reading them
+/// is bit-identical. Without a method, consensus corrects, or pose_graph if the closures cannot be
+/// judged or are trusted. Computes the ledger of the closures if its file is wanted; a note states
+/// why it is not written. Throws InputError, also if the method declines or fails.
 Correction correct(const CorrectArguments& arguments, const Catalogue& catalogue);
 
 /// The problem that correct() would correct, from `estimate`, `loops`, `anchors`, `frames` and
@@ -82,7 +87,11 @@ Problem load_problem(const CorrectArguments& arguments,
                      const Catalogue& catalogue,
                      Provenance* provenance = nullptr);
 
-/// Summary for a terminal: sizes, residuals before and after, counts and notes of the method.
+/// Result of the check of the closures in words; empty without a check.
+CheckSentence check_sentence(const Correction& correction);
+
+/// Summary for a terminal: sizes, what the check of the closures found, residuals before and after,
+/// counts and notes of the method.
 std::string text(const Correction& correction);
 
 /// Map of the keyframes before and after, without files.
@@ -92,8 +101,8 @@ FigureData before_and_after(const Correction& correction);
 /// rejected_closures [{from, to}] by ids or stamps, seconds, before, after {translation_rms,
 /// translation_max, rotation_rms, rotation_max, chi2_odometry, chi2_closures, and with anchors
 /// anchor_rms, anchor_max} or null, counts {name: value}, phases [{name, seconds}], notes [text],
-/// verdict text or null, output {file, poses, outside}. `rejected` and its list are null if the
-/// method rejects none.
+/// verdict (check_sentence() or null), closure_check (closure_check.hpp, or null), output {file,
+/// poses, outside}. `rejected` and its list are null if the method rejects none.
 std::string json(const Correction& correction);
 
 }  // namespace loopbench::harness

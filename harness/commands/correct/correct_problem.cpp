@@ -59,6 +59,18 @@ std::optional<std::size_t> rejected_closures(const Correction& done) {
   return std::nullopt;
 }
 
+/// Notes on the closures that were kept; of a check, on all closures, without what it states.
+std::vector<Note> notes_of_closures(const Problem& all,
+                                    const Problem& kept,
+                                    const ClosureCheck* check) {
+  if (check == nullptr || check->judgement == nullptr) return closure_notes(kept);
+  std::vector<Note> out = closure_notes(all, check->judgement.get());
+  std::erase_if(out, [](const Note& note) {
+    return note.kind == NoteKind::closure_gap || note.kind == NoteKind::information;
+  });
+  return out;
+}
+
 }  // namespace
 
 MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue) {
@@ -75,7 +87,8 @@ Correction correct(Problem problem,
                    const std::string& name,
                    const MethodChoice& choice,
                    const std::vector<double>& at,
-                   const Catalogue& catalogue) {
+                   const Catalogue& catalogue,
+                   const ClosureCheck* closure_check) {
   const auto method = make_method(choice, catalogue, {});
   if (const std::string why = methods::reason_to_decline(*method, problem); !why.empty()) {
     throw InputError(name + ": " + choice.label + " declines: " + why);
@@ -94,14 +107,19 @@ Correction correct(Problem problem,
   check_covariances(out.report.covariances, out.keyframes.size());
   out.output = curve->sample(at);
   check(out.output, choice.label);
-  const Problem kept =
-      without_closures(out.problem, out.report.rejected.value_or(std::vector<std::size_t>{}));
+  const std::vector<std::size_t> rejected =
+      out.report.rejected.value_or(std::vector<std::size_t>{});
+  // Of a method that rejects all, the residuals of all show what is left.
+  const bool keeps_some = rejected.size() < out.problem.closures.size();
+  const Problem kept = keeps_some ? without_closures(out.problem, rejected) : out.problem;
   out.before = residuals(kept, out.problem.keyframes);
   out.after = residuals(kept, out.keyframes);
   out.rejected = rejected_closures(out);
   // Of the solver's start, not of the input.
   std::erase_if(out.report.counts, [](const auto& c) { return c.name.ends_with("chi2_before"); });
-  for (const Note& note : closure_notes(kept)) out.report.notes.push_back(text(note));
+  for (const Note& note : notes_of_closures(out.problem, kept, closure_check)) {
+    out.report.notes.push_back(text(note));
+  }
   return out;
 }
 

@@ -29,6 +29,7 @@ nlohmann::json residuals_json(const std::optional<std::vector<Residual>>& residu
 std::string rejected_text(const Correction& c) {
   constexpr std::size_t kMost = 20;
   if (!c.report.rejected || c.report.rejected->empty()) return "";
+  if (c.is_consensus && !c.check->is_decided()) return "";  // nothing is moved
   const std::vector<std::size_t>& all = *c.report.rejected;
   std::string out = "rejected:";
   for (std::size_t i = 0; i < std::min(all.size(), kMost); ++i) {
@@ -56,8 +57,18 @@ nlohmann::json rejected_json(const Correction& c) {
 
 }  // namespace
 
+CheckSentence check_sentence(const Correction& c) {
+  if (!c.check) return {};
+  return sentence(*c.check,
+                  c.problem,
+                  {.method = c.method,
+                   .is_consensus = c.is_consensus,
+                   .rejected = c.report.rejected.value_or(std::vector<std::size_t>{})});
+}
+
 std::string text(const Correction& c) {
-  std::string out = c.is_contradicted ? "Warning: " + c.verdict + "\n\n" : "";
+  const CheckSentence check = check_sentence(c);
+  std::string out = check.is_warning ? "Warning: " + check.text + "\n\n" : "";
   out += fmt::format("{} corrected by {}: {} keyframes, {}, {}",
                      c.estimate,
                      c.method,
@@ -69,7 +80,8 @@ std::string text(const Correction& c) {
   out += fmt::format(", {:.1f} ms\n\n", 1e3 * c.seconds);
   out += rejected_text(c);
   if (c.before && c.after) {
-    const bool has_rejected = c.report.rejected && !c.report.rejected->empty();
+    const std::size_t rejected = c.report.rejected ? c.report.rejected->size() : 0;
+    const bool has_rejected = rejected > 0 && rejected < c.problem.closures.size();
     const char* const which = has_rejected ? "without rejected closures" : "";
     out += fmt::format("{:<28}{:>14}{:>14}\n", which, "before", "after");
     for (std::size_t i = 0; i < c.before->size(); ++i) {
@@ -85,7 +97,7 @@ std::string text(const Correction& c) {
     counts += fmt::format("{}{} {:.6g}", counts.empty() ? "" : ", ", count.name, count.value);
   }
   if (!counts.empty()) out += "counts: " + counts + "\n";
-  if (!c.verdict.empty() && !c.is_contradicted) out += "closures: " + c.verdict + "\n";
+  if (!check.text.empty() && !check.is_warning) out += "closures: " + check.text + "\n";
   for (const std::string& note : c.report.notes) out += "note: " + note + "\n";
   if (!c.out.empty() && !is_dash(c.out)) {
     out += fmt::format("\n{} in {}\n", counted(c.output.size(), "pose"), c.out);
@@ -103,6 +115,7 @@ std::string json(const Correction& c) {
   for (const methods::Phase& phase : c.report.phases) {
     phases.push_back({{"name", phase.name}, {"seconds", phase.seconds}});
   }
+  const std::string verdict = check_sentence(c).text;
   const nlohmann::json out = {
       {"estimate", c.estimate},
       {"method", c.method},
@@ -118,7 +131,8 @@ std::string json(const Correction& c) {
       {"counts", counts},
       {"phases", phases},
       {"notes", c.report.notes},
-      {"verdict", c.verdict.empty() ? nlohmann::json(nullptr) : nlohmann::json(c.verdict)},
+      {"verdict", verdict.empty() ? nlohmann::json(nullptr) : nlohmann::json(verdict)},
+      {"closure_check", c.check ? json(*c.check, c.problem) : nlohmann::json(nullptr)},
       {"output", {{"file", c.out}, {"poses", c.output.size()}, {"outside", c.outside}}}};
   return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
