@@ -3,10 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "datasets/core/error.hpp"
 #include "harness/answers/compare/derived.hpp"
+#include "harness/answers/compare/distributions.hpp"
 #include "harness/answers/tables/growth.hpp"
 #include "harness/answers/tables/store_tables.hpp"
 #include "harness/answers/tables/success.hpp"
@@ -26,11 +28,42 @@ struct TableArguments {
   std::optional<double> success;  ///< limit of the error of a successful run
   OutputOptions output;
   bool growth = false;
+  bool intervals = false;          ///< of means, instead of standard deviations
   bool has_default_layout = true;  ///< no --rows, --columns, --split
   bool is_for_paper = false;       ///< --format latex or markdown
 
   bool is_selected() const { return !where.empty() || !spec.show.empty() || success; }
 };
+
+/// Half of the 95 % interval of the mean of so many values with this sample deviation, by Student's
+/// distribution.
+double half_interval(double deviation, std::size_t count) {
+  double low = 1.0, high = 100.0;
+  const auto degrees = static_cast<double>(count - 1);
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    (student_two_sided(middle, degrees) > 0.05 ? low : high) = middle;
+  }
+  return low * deviation / std::sqrt(static_cast<double>(count));
+}
+
+/// Replaces standard deviations by half of the intervals of the means.
+void set_intervals(std::vector<Table>& tables) {
+  const std::string before = "their standard deviation";
+  for (Table& table : tables) {
+    for (std::vector<TableCell>& line : table.lines) {
+      for (TableCell& cell : line) {
+        if (cell.deviation) cell.deviation = half_interval(*cell.deviation, cell.averaged);
+      }
+    }
+    format_means(table);
+    for (std::string& note : table.notes) {
+      const std::size_t at = note.find(before);
+      if (at != std::string::npos)
+        note.replace(at, before.size(), "half of the 95 % interval of the mean (Student)");
+    }
+  }
+}
 
 std::string tables_text(const TableArguments& arguments) {
   const ExportFormat format = arguments.output.format();
@@ -48,6 +81,7 @@ std::string tables_text(const TableArguments& arguments) {
   } else {
     tables = store_tables(arguments.store, arguments.where, arguments.spec);
   }
+  if (arguments.intervals) set_intervals(tables);
   if (format == ExportFormat::csv) return csv(tables);
   if (format == ExportFormat::json) return json(tables);
   return text(tables, arguments.output, arguments.store, arguments.where);
@@ -165,6 +199,11 @@ void add_table(CLI::App& app, int& exit_code) {
   command.add_flag("--plus-minus",
                    a.spec.plus_minus,
                    "Add the standard deviation over the averaged cells to each number");
+  command
+      .add_flag("--intervals",
+                a.intervals,
+                "Add half of the 95 % interval of the mean of the averaged cells to each number")
+      ->excludes("--plus-minus");
   add(command,
       "--show",
       a.spec.show,
@@ -200,6 +239,9 @@ void add_table(CLI::App& app, int& exit_code) {
                std::ranges::count(a.spec.columns, field) > 0;
       });
     }
+    if (a.intervals && (format == ExportFormat::csv || format == ExportFormat::json))
+      throw InputError("--intervals: needs a format for reading; in csv and json use --plus-minus");
+    if (a.intervals) a.spec.plus_minus = true;
     exit_code = print_table(a);
   });
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <map>
 
+#include "datasets/core/error.hpp"
 #include "harness/answers/notes/counted_notes.hpp"
+#include "harness/answers/report/alignment_text.hpp"
 #include "harness/answers/tables/store_provenance.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/standard_output.hpp"
@@ -20,11 +22,11 @@ namespace {
 
 bool is_printed(const OutputOptions& output) { return output.file.empty() || is_dash(output.file); }
 
-/// "protocol loopbench [3], alignment se3".
+/// "protocol loopbench [3], aligned by rotation and translation".
 std::string alignments_text(const std::map<std::string, std::string>& run) {
   std::string out;
   for (const auto& [protocol, align] : alignments(run)) {
-    out += (out.empty() ? "protocol " : "; ") + protocol + ", alignment " + align;
+    out += (out.empty() ? "protocol " : "; ") + protocol + ", " + alignment_text(align);
   }
   return out;
 }
@@ -54,8 +56,14 @@ void declare(CLI::App& command, OutputOptions& output) {
              "File to write (-: standard output); for CSV also its provenance"),
          FileKind::printed);
   command.add_flag("--wide",
-                   output.wide,
+                   output.latex.wide,
                    "LaTeX tables as wide as the text (174 mm) instead of one column (84 mm)");
+  add(command,
+      "--caption TEXT",
+      output.latex.caption,
+      "Caption of LaTeX tables, in LaTeX (default: score, statistic and protocol, which are notes "
+      "otherwise)");
+  add(command, "--label NAME", output.latex.label, "Label of the LaTeX table, for \\ref");
   command.add_flag("--provenance",
                    output.provenance,
                    "Add config, inputs, seeds and machine to Markdown and LaTeX, as a comment");
@@ -74,11 +82,15 @@ std::string text(std::vector<Table> tables,
   const std::string alignment =
       format == ExportFormat::latex ? alignments_text(read_run(store)) : "";
   std::string out;
+  LatexOptions paper = output.latex;
+  std::size_t written = 0;
   for (Table& table : tables) {
+    if (++written > 1 && !paper.label.empty())
+      paper.label = output.latex.label + "-" + std::to_string(written);
     out += out.empty() || out.ends_with("\n\n") ? "" : "\n";
     if (!alignment.empty()) table.facts += (table.facts.empty() ? "" : "; ") + alignment;
     if (format == ExportFormat::latex) {
-      out += latex(table, output.wide);
+      out += latex(table, paper);
     } else if (format == ExportFormat::terminal) {
       out += terminal(with_common_unit(without_empty_columns(table)), style);
     } else {
@@ -93,6 +105,9 @@ void write_output(const std::string& text,
                   const std::string& key,
                   const std::filesystem::path& store) {
   const ExportFormat format = output.format();
+  if (format != ExportFormat::latex && !(output.latex.caption + output.latex.label).empty()) {
+    throw InputError("--caption and --label: need --format latex");
+  }
   std::string out = text;
   const StoreProvenance provenance = read_store_provenance(store);
   const std::string summary = build_summary(provenance.provenance);

@@ -20,7 +20,7 @@ struct OutputOptions {
   std::optional<ExportFormat> given;  ///< none: terminal on a terminal, otherwise Markdown
   std::string file;                   ///< empty or "-": standard output
   bool provenance = false;            ///< all provenance in Markdown and LaTeX, not one line
-  bool wide = false;                  ///< LaTeX as wide as the text, not one column
+  LatexOptions latex = {};            ///< of LaTeX only
 
   ExportFormat format() const;
 };

@@ -146,7 +146,7 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
             "raw              1.035\n"
             "dm_n3            2.035\n" +
                 notes + "each number is the mean of up to 8 cells\n");
-  const std::string paper = latex(tables[0], true);
+  const std::string paper = latex(tables[0], {.wide = true});
   for (const char* const part :
        {"\\begin{table*}\n",
         "\\caption{dense; rmse; times: dense; runs per number: at most 8}",
@@ -159,24 +159,64 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
   }
 }
 
-TEST(Formats, LatexDistributesWideTablesOverPartsOfOneColumn) {
-  Table table{
-      "wide", {"method"}, {{"a name that is longer than two fifths of a column"}}, {"a--b"}};
-  for (int column = 0; column < 12; ++column) {
-    table.headings.push_back("rotation error [deg]");
-    table.lines[0].emplace_back("0.1234");
+/// So many rows and columns of numbers, with long headings.
+Table numbers(int rows, int columns) {
+  Table out{"wide", {"method"}, {}, {"a--b", "times: dense (others: --where times=...)"}};
+  for (int column = 0; column < columns; ++column)
+    out.headings.push_back("score " + std::to_string(column) + " [deg]");
+  for (int row = 0; row < rows; ++row) {
+    out.lines.push_back({"method " + std::to_string(row)});
+    for (int column = 0; column < columns; ++column) out.lines.back().emplace_back("0.1234");
   }
-  const auto count = [&](const std::string& what, bool wide) {
-    const std::string text = latex(table, wide);
-    std::size_t out = 0;
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++out;
-    return out;
-  };
-  EXPECT_EQ(count("\\begin{tabular}{@{}p{", false), 4U);
-  EXPECT_EQ(count("\\begin{tabular}", true), 2U);
-  EXPECT_EQ(count("\\shortstack[r]{rotation\\\\error}", false), 12U);
-  EXPECT_EQ(count("(part 4 of 4)}", false), 1U);
-  EXPECT_EQ(count("a{-}{-}b\\par", false), 1U);
+  return out;
+}
+
+std::size_t occurrences(const std::string& text, const std::string& what) {
+  std::size_t out = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++out;
+  return out;
+}
+
+TEST(Formats, LatexIsOneTableThatIsTransposedIfItIsTooWide) {
+  const std::string upright = latex(numbers(9, 3));
+  EXPECT_EQ(occurrences(upright, "\\begin{table}"), 1U);
+  EXPECT_EQ(occurrences(upright, "\nmethod 8 & 0.1234"), 1U) << upright;
+  const std::string text = latex(numbers(3, 7));
+  EXPECT_EQ(occurrences(text, "\\begin{table}"), 1U);
+  EXPECT_EQ(occurrences(text, "\n & method 0 & method 1 & method 2 \\\\"), 1U) << text;
+  EXPECT_EQ(occurrences(text, "\nscore 6 & 0.1234"), 1U) << text;
+  const std::string wide = latex(numbers(16, 8));
+  EXPECT_EQ(occurrences(wide, "\\begin{table*}"), 1U) << wide;
+  EXPECT_EQ(occurrences(wide, "\nmethod 15 & 0.1234"), 1U);
+  const std::string huge = latex(numbers(40, 40));
+  EXPECT_GT(occurrences(huge, "\\begin{table}"), 3U);
+  EXPECT_EQ(occurrences(huge, "(part 1 of"), 1U);
+}
+
+TEST(Formats, LatexHasNoOptionsOfTheCommandLine) {
+  const std::string text = latex(numbers(3, 3));
+  EXPECT_EQ(occurrences(text, "a{-}{-}b\\par"), 1U) << text;
+  EXPECT_EQ(occurrences(text, "times: dense\\par"), 1U) << text;
+  EXPECT_EQ(occurrences(text, "where"), 0U) << text;
+}
+
+TEST(Formats, LatexHasACaptionAndALabel) {
+  const std::string text =
+      latex(numbers(2, 2), {.caption = "Errors of $N$ runs", .label = "tab:errors"});
+  EXPECT_EQ(occurrences(text, "\\caption{Errors of $N$ runs}\\label{tab:errors}"), 1U) << text;
+  EXPECT_EQ(occurrences(text, "\nwide {[}deg]\\par"), 1U) << text;
+}
+
+TEST(Formats, LatexExplainsEqualNumbersOfWhichOneIsBold) {
+  Table table = numbers(3, 2);
+  table.notes = {"marked: shown to be better than each other method of the column"};
+  table.lines[0][1].is_best = true;
+  const std::string text = latex(table);
+  EXPECT_EQ(occurrences(text, "\\textbf{0.1234} & 0.1234 "), 1U) << text;
+  EXPECT_EQ(occurrences(text, "& 0.1234$^\\dagger$ & 0.1234 "), 2U) << text;
+  EXPECT_EQ(occurrences(text, "$^\\dagger$: shown to be worse than an equally printed bold number"),
+            1U)
+      << text;
 }
 
 TEST(Formats, StateACommonUnitOnce) {

@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
-#include <map>
-#include <string_view>
+#include <cctype>
 
+#include "harness/answers/tables/latex_text.hpp"
 #include "harness/answers/tables/table.hpp"
 #include "harness/sweep/text/wrap.hpp"
 
@@ -13,69 +12,10 @@ namespace {
 
 using Columns = std::vector<std::size_t>;
 
-constexpr double kGapBetween = 8.0;  ///< between columns [pt]: twice \tabcolsep
-constexpr double kNameShare = 0.4;   ///< of the width, for names that are broken into lines
-
-std::string escaped_latex(const std::string& text) {
-  static const std::map<char, std::string> kEscaped{
-      {'\\', "\\textbackslash{}"},
-      {'~', "\\textasciitilde{}"},
-      {'^', "\\textasciicircum{}"},
-      {'<', "\\textless{}"},
-      {'>', "\\textgreater{}"},
-      {'|', "\\textbar{}"},
-      {'"', "\\char34{}"},
-      {'[', "{[}"},  // else a length after a line break
-      {'-', "{-}"},  // else -- is a dash
-      {'&', "\\&"},
-      {'%', "\\%"},
-      {'$', "\\$"},
-      {'#', "\\#"},
-      {'_', "\\_"},
-      {'{', "\\{"},
-      {'}', "\\}"}};
-  std::string out;
-  for (const char c : one_line(text)) {
-    const auto found = kEscaped.find(c);
-    out += found == kEscaped.end() ? std::string(1, c) : found->second;
-  }
-  const std::string plus_minus = "\u00b1";
-  for (std::size_t at = 0; (at = out.find(plus_minus, at)) != std::string::npos;) {
-    out.replace(at, plus_minus.size(), "$\\pm$");
-  }
-  return out;
-}
-
-/// In a paragraph, names and paths can be broken after these characters.
-std::string breakable(const std::string& text) {
-  std::string out, part;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    part += text[i];
-    const bool is_break = std::string_view("_/=").find(text[i]) != std::string_view::npos;
-    if (!is_break && i + 1 < text.size()) continue;
-    out += escaped_latex(part) + (is_break ? "\\allowbreak{}" : "");
-    part.clear();
-  }
-  return out;
-}
-
-/// Width in Computer Modern of 8 pt, rounded up [pt].
-double points(const std::string& text) {
-  static constexpr std::pair<std::string_view, double> kWidths[] = {
-      {"ijl.,:;'!|", 2.4},
-      {"rtfs()[]- ", 3.4},
-      {"0123456789", 4.3},
-      {"mwMW%+=<>@\xc2", 7.1},
-      {"ABCDEFGHIJKLNOPQRSTUVXYZ", 6.4}};
-  double out = 0.0;
-  for (const char c : text) {
-    if ((static_cast<unsigned char>(c) & 0xc0) == 0x80) continue;  // continues a character
-    const auto found = std::ranges::find_if(
-        kWidths, [c](const auto& each) { return each.first.find(c) != std::string_view::npos; });
-    out += found == std::end(kWidths) ? 4.8 : found->second;
-  }
-  return out;
-}
+constexpr double kGapBetween = 8.0;          ///< between columns [pt]: twice \tabcolsep
+constexpr double kNameShare = 0.4;           ///< of the width, for names that are broken into lines
+constexpr double kLeastScale = 0.75;         ///< of a table that does not fit
+constexpr const char* kMarked = "marked: ";  ///< begin of the note of mark_best()
 
 /// A column with its heading in lines.
 struct PaperColumn {
@@ -90,11 +30,11 @@ std::vector<PaperColumn> columns_of(const Table& table, double limit) {
     std::size_t longest = 9;  // characters; wider headings are broken if entries are narrower
     for (const auto& line : table.lines) {
       longest = std::max(longest, width(line[c].text));
-      column.width = std::max(column.width, (line[c].is_best ? 1.15 : 1.0) * points(line[c].text));
+      column.width = std::max(column.width, (line[c].is_best ? 1.15 : 1.0) * latex_width(line[c].text));
     }
     column.heading = wrapped(table.headings[c], longest);
     for (const std::string& line : column.heading) {
-      column.width = std::max(column.width, points(line));
+      column.width = std::max(column.width, latex_width(line));
     }
     if (c == 0) column.width = std::min(column.width, kNameShare * limit);
   }
@@ -147,34 +87,169 @@ std::string tabular(const Table& table,
   return out + "\\bottomrule\n\\end{tabular}}\n";
 }
 
+double line_width_of(bool wide) { return wide ? 495.0 : 239.0; }  // [pt]
+
+/// Natural width [pt].
+double natural_width(const std::vector<PaperColumn>& columns) {
+  double out = -kGapBetween;
+  for (const PaperColumn& column : columns) out += kGapBetween + column.width;
+  return out;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// Columns become rows, also in the note on what is marked.
+Table transposed(const Table& table) {
+  Table out = table;
+  const std::size_t unit = table.headings[0].find('[');
+  out.headings = {unit == std::string::npos ? "" : table.headings[0].substr(unit)};
+  for (const auto& line : table.lines) out.headings.push_back(line[0].text);
+  out.lines.clear();
+  for (std::size_t c = 1; c < table.headings.size(); ++c) {
+    std::vector<TableCell>& line = out.lines.emplace_back();
+    line.emplace_back(table.headings[c]);
+    for (const auto& before : table.lines) line.push_back(before[c]);
+  }
+  for (std::string& note : out.notes) {
+    if (!note.starts_with(kMarked)) continue;
+    const bool is_of_columns = note.find("column") != std::string::npos;
+    replace_all(note, is_of_columns ? "column" : "row", is_of_columns ? "row" : "column");
+  }
+  return out;
+}
+
+/// Marks numbers that are printed as a best one of their column (or row) but are not best.
+void mark_equal_numbers(Table& table) {
+  const auto found = std::ranges::find_if(
+      table.notes, [](const std::string& note) { return note.starts_with(kMarked); });
+  if (found == table.notes.end()) return;
+  const bool is_of_columns = found->find("column") != std::string::npos;
+  bool is_marked = false;
+  std::vector<std::pair<TableCell*, std::size_t>> best, others;  // with their column or row
+  for (std::size_t r = 0; r < table.lines.size(); ++r) {
+    for (std::size_t c = 1; c < table.lines[r].size(); ++c) {
+      TableCell& cell = table.lines[r][c];
+      (cell.is_best ? best : others).emplace_back(&cell, is_of_columns ? c : r);
+    }
+  }
+  for (const auto& [cell, lane] : others) {
+    const auto is_equal = [&, text = cell->text, own = lane](const auto& each) {
+      return each.second == own && each.first->text == text;
+    };
+    if (cell->text.empty() || std::ranges::none_of(best, is_equal)) continue;
+    cell->text += kDagger;
+    is_marked = true;
+  }
+  if (!is_marked) return;
+  table.notes.insert(
+      found + 1, std::string(kDagger) + ": shown to be worse than an equally printed bold number");
+}
+
+bool names_option(const std::string& text) {
+  for (std::size_t at = 0; (at = text.find("--", at)) != std::string::npos; at += 2) {
+    const bool begins = at == 0 || text[at - 1] == ' ' || text[at - 1] == '(';
+    if (begins && at + 2 < text.size() && std::isalpha(static_cast<unsigned char>(text[at + 2])))
+      return true;
+  }
+  return false;
+}
+
+/// Without parentheses and clauses that name an option or a command, which a paper does not have.
+std::string without_options(std::string note) {
+  for (std::size_t open = 0; (open = note.find('(', open)) != std::string::npos;) {
+    const std::size_t close = note.find(')', open);
+    if (close == std::string::npos) break;
+    if (!names_option(note.substr(open, close - open))) {
+      open = close;
+      continue;
+    }
+    if (open > 0 && note[open - 1] == ' ') --open;
+    note.erase(open, close + 1 - open);
+  }
+  std::string out;
+  for (std::size_t begin = 0; begin <= note.size();) {
+    const std::size_t end = std::min(note.find("; ", begin), note.size());
+    const std::string clause = note.substr(begin, end - begin);
+    if (!names_option(clause) && !clause.starts_with('`')) {
+      out += (out.empty() ? "" : "; ") + clause;
+    }
+    begin = end + 2;
+  }
+  return out;
+}
+
+struct PaperLayout {
+  Table table;
+  bool wide = false;
+  std::vector<PaperColumn> columns = {};
+  std::vector<Columns> parts = {};
+};
+
+/// The first layout that fits, see latex().
+PaperLayout layout_of(const Table& table, bool wide) {
+  const Table other = transposed(table);
+  std::vector<PaperLayout> tries{{table, wide}, {other, wide}};
+  if (!wide) tries.insert(tries.end(), {{table, true}, {other, true}});
+  for (PaperLayout& each : tries) each.columns = columns_of(each.table, line_width_of(each.wide));
+  const auto fits = [](const PaperLayout& each, double scale) {
+    return scale * natural_width(each.columns) <= line_width_of(each.wide);
+  };
+  for (const double scale : {1.0, kLeastScale}) {
+    for (PaperLayout& each : tries) {
+      if (!fits(each, scale) || (scale < 1.0 && !each.wide)) continue;
+      Columns& all = each.parts.emplace_back();
+      for (std::size_t c = 0; c < each.columns.size(); ++c) all.push_back(c);
+      return each;
+    }
+  }
+  tries[0].parts = parts_of(tries[0].columns, line_width_of(wide));
+  return tries[0];
+}
+
 }  // namespace
 
-std::string latex(const Table& all, bool wide) {
-  const Table table = with_common_unit(without_empty_columns(all));
-  std::string notes;
-  for (const std::string& note : table.notes) notes += breakable(one_line(note)) + "\\par\n";
+std::string latex(const Table& all, const LatexOptions& options) {
+  Table table = with_common_unit(without_empty_columns(all));
+  for (std::string& note : table.notes) note = without_options(one_line(note));
+  std::erase(table.notes, "");
+  mark_equal_numbers(table);
+  const char* const separator = table.title.empty() || table.facts.empty() ? "" : "; ";
+  const std::string stated = table.title + separator + table.facts;
+  if (!options.caption.empty() && !stated.empty()) table.notes.insert(table.notes.begin(), stated);
   std::string comments, cautions;
   for (const std::string& line : table.above) {
     comments += "% note: " + one_line(line) + "\n";
     cautions += (cautions.empty() ? " Note: " : "; ") + breakable(one_line(line));
   }
-  if (table.headings.empty())
-    return comments + "\\noindent " + breakable(table.title) + cautions + "\\par\n" + notes;
-  const double limit = wide ? 495.0 : 239.0;  // [pt]
-  const std::vector<PaperColumn> columns = columns_of(table, limit);
-  const std::vector<Columns> parts = parts_of(columns, limit);
-  const std::string environment = wide ? "{table*}" : "{table}";
-  const char* const separator = table.title.empty() || table.facts.empty() ? "" : "; ";
-  const std::string caption =
-      breakable(table.title + separator + table.facts) + (cautions.empty() ? "" : "." + cautions);
+  const auto notes_of = [](const Table& from) {
+    std::string out;
+    for (const std::string& note : from.notes) out += breakable(note) + "\\par\n";
+    return out;
+  };
+  if (table.headings.empty()) {
+    return comments + "\\noindent " + breakable(table.title) + cautions + "\\par\n" +
+           notes_of(table);
+  }
+  const PaperLayout layout = layout_of(table, options.wide);
+  const std::string notes = notes_of(layout.table);
+  const std::string environment = layout.wide ? "{table*}" : "{table}";
+  const std::string caption = (options.caption.empty() ? breakable(stated) : options.caption) +
+                              (cautions.empty() ? "" : "." + cautions);
   std::string out = comments;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
+  for (std::size_t p = 0; p < layout.parts.size(); ++p) {
     const std::string part =
-        parts.size() == 1 ? "" : fmt::format(" (part {} of {})", p + 1, parts.size());
+        layout.parts.size() == 1 ? "" : fmt::format(" (part {} of {})", p + 1, layout.parts.size());
+    const std::string label =
+        options.label.empty() || p > 0 ? "" : "\\label{" + options.label + "}";
     out += "\\begin" + environment + "\n\\centering\\footnotesize\\setlength{\\tabcolsep}{4pt}\n";
-    if (!caption.empty()) out += "\\caption{" + caption + part + "}\\smallskip\n";
-    out += tabular(table, columns, parts[p], limit);
-    if (p + 1 == parts.size() && !notes.empty()) {
+    if (!caption.empty() || !label.empty())
+      out += "\\caption{" + caption + part + "}" + label + "\\smallskip\n";
+    out += tabular(layout.table, layout.columns, layout.parts[p], line_width_of(layout.wide));
+    if (p + 1 == layout.parts.size() && !notes.empty()) {
       out += "\\par\\smallskip\n\\parbox{\\linewidth}{\\raggedright\\scriptsize\n" + notes + "}\n";
     }
     out += "\\end" + environment + "\n";

@@ -84,11 +84,20 @@ std::string markdown(const std::vector<Table>& tables);
 /// distributed over several blocks that each repeat the row names. Notes are wrapped.
 std::string terminal(const Table& table, const TerminalStyle& style = {});
 
-/// Floats with title and facts as caption and the notes below, as wide as one column (84 mm) or, if
-/// `wide`, the text (174 mm). Wider tables have several parts that each repeat the row names; a
-/// part that is still too wide is scaled down. Best in bold. Escaped; needs
+/// Of a table in a paper.
+struct LatexOptions {
+  bool wide = false;         ///< as wide as the text (174 mm) instead of one column (84 mm)
+  std::string caption = {};  ///< LaTeX; empty: title and facts, which are notes otherwise
+  std::string label = {};    ///< for \ref; empty: none
+};
+
+/// A float with a caption and the notes below, without remarks on options of the command line. A
+/// table that is too wide is transposed, or else as wide as the text, or else both; the first that
+/// fits. If none does, it is scaled down to at least three quarters, or divided into several parts
+/// that each repeat the row names. Best in bold; numbers that are printed equal to a best one of
+/// their column or row, but are shown to be worse, have a dagger. Escaped; needs
 /// \usepackage{booktabs,graphicx} and UTF-8.
-std::string latex(const Table& table, bool wide = false);
+std::string latex(const Table& table, const LatexOptions& options = {});
 
 /// The means, one line each (RFC 4180), in full precision, or the texts of cells without one;
 /// `mark` has the words best and stated (a time that programs state), or is empty.
