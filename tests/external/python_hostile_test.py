@@ -72,6 +72,11 @@ class Arrays(unittest.TestCase):
         for call in calls:
             with self.assertRaisesRegex(ValueError, "row 7: is masked"):
                 call()
+        with self.assertRaisesRegex(ValueError, "row 7: is masked"):
+            loopbench.evaluate(self.reference, list(poses))
+        self.assertEqual(loopbench.evaluate(self.reference, [list(row) for row in self.problem.keyframes])["pairs"], 40)
+        with self.assertRaisesRegex(ValueError, "estimate: is complex"):
+            loopbench.evaluate(self.reference, self.problem.keyframes + 0j)
         nothing_masked = np.ma.masked_array(self.problem.keyframes, mask=False)
         self.assertEqual(loopbench.evaluate(self.reference, nothing_masked)["pairs"], 40)
 

@@ -17,12 +17,17 @@ class Declined(Exception):
 
 
 def unmasked(values: Any, name: str) -> Array:
-    """The values as an array. Raises ValueError for masked ones: numpy would return what is below the mask.
+    """The values as an array. Raises ValueError for masked ones (numpy would return what is below the mask) and
+    for complex ones (it would drop a part).
 
     >>> unmasked(np.ma.masked_array(np.zeros((2, 8)), mask=[[0] * 8, [1] * 8]), "estimate")
     Traceback (most recent call last):
     ValueError: estimate: row 1: is masked, expected only rows without masked values
     """
+    if isinstance(values, (list, tuple)) and any(np.ma.isMaskedArray(each) for each in values):
+        values = np.ma.stack(values)
+    if np.iscomplexobj(values):
+        raise ValueError(f"{name}: is complex, expected real numbers")
     if np.ma.is_masked(values):
         row = np.argwhere(np.ma.getmaskarray(values))[0][0]
         raise ValueError(f"{name}: row {row}: is masked, expected only rows without masked values")
