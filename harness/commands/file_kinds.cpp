@@ -56,8 +56,10 @@ bool has_config_key(std::string_view text, std::string_view key) {
   return false;
 }
 
+/// A page of results contains the config of its sweep.
 bool is_config(std::string_view text) {
-  return has_config_key(text, "datasets") && has_config_key(text, "methods");
+  return !text.starts_with("<!DOCTYPE") && has_config_key(text, "datasets") &&
+         has_config_key(text, "methods");
 }
 
 bool is_baseline(std::string_view text) {
@@ -157,6 +159,11 @@ std::string noun_of(FileKind kind) {
 }
 
 std::string protected_content(const std::filesystem::path& file) {
+  for (const std::string_view tail : {"-journal", "-wal", "-shm"}) {
+    const std::string name = file.string();
+    if (!name.ends_with(".sqlite" + std::string(tail))) continue;
+    return "what SQLite writes beside a store";
+  }
   const std::string text = ends_of(file).first;
   constexpr std::string_view kJournal = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
   const bool is_log = text.starts_with("\x37\x7f\x06") || text.starts_with(kJournal);

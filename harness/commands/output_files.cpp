@@ -72,8 +72,9 @@ bool are_same(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (is_file(a) && is_file(b)) return fs::equivalent(a, b, error) && !error;
   if (fs::exists(a, error) || fs::exists(b, error)) return false;
-  return fs::weakly_canonical(fs::absolute(a, error), error) ==
-         fs::weakly_canonical(fs::absolute(b, error), error);
+  const fs::path one = fs::weakly_canonical(fs::absolute(a, error), error);
+  const fs::path other = fs::weakly_canonical(fs::absolute(b, error), error);
+  return !one.empty() && one == other;  // empty: links in a circle, which writing reports
 }
 
 /// Whether it is a file of its own: no folder, and not what standard output is redirected to.
@@ -118,14 +119,14 @@ void reject_twice(const std::vector<OutputFile>& outputs) {
 void reject_foreign(const std::vector<OutputFile>& outputs, bool force) {
   std::vector<OutputFile> foreign;
   for (const OutputFile& output : outputs) {
-    if (!is_file(output.file) || has_kind(output.file, output.kind)) continue;
+    if (is_file(output.file) && has_kind(output.file, output.kind)) continue;
     if (const std::string what = protected_content(output.file); !what.empty()) {
       throw input_error(
           output.file.string(),
           0,
           "is " + what + ", which " + output.option + " does not overwrite; expected another name");
     }
-    if (!force) foreign.push_back(output);
+    if (!force && is_file(output.file)) foreign.push_back(output);
   }
   if (foreign.empty()) return;
   const bool is_one = foreign.size() == 1;
