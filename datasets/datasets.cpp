@@ -1,4 +1,5 @@
 #include "datasets/dataset.hpp"
+#include "datasets/files/closest_name.hpp"
 #include "datasets/pose_graph_dataset.hpp"
 #include "datasets/simulated/simulated.hpp"
 #include "datasets/trajectory_dataset.hpp"
@@ -22,15 +23,16 @@ std::filesystem::path DataRoot::find(const std::string& path) const {
   if (path.empty()) throw InputError("found an empty file name, expected the path of a file");
   if (file.is_absolute()) {
     if (std::filesystem::exists(file)) return file;
-    throw DataMissing(path + ": no such file");
+    throw DataMissing(path + ": no such file" + similar_file(file));
   }
-  std::string tried;
+  std::string tried, similar;
   for (const std::filesystem::path& folder : folders) {
     if (std::filesystem::exists(folder / file)) return folder / file;
     tried += (tried.empty() ? "" : ", ") + folder.string();
+    if (similar.empty()) similar = similar_file(folder / file);
   }
   throw DataMissing(path + ": no such file (looked in " + (tried.empty() ? "." : tried) +
-                    "; set the data folder with --data DIR or $LOOPBENCH_DATA)");
+                    "; set the data folder with --data DIR or $LOOPBENCH_DATA)" + similar);
 }
 
 }  // namespace loopbench

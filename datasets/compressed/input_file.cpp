@@ -19,6 +19,7 @@
 
 #include "datasets/compressed/decompress.hpp"
 #include "datasets/compressed/zip.hpp"
+#include "datasets/files/closest_name.hpp"
 #include "datasets/files/regular_file.hpp"
 
 namespace loopbench {
@@ -177,7 +178,9 @@ OpenedFile open_input(const std::filesystem::path& file,
   } else {
     std::error_code error;
     const auto status = std::filesystem::status(file, error);
-    if (status.type() == std::filesystem::file_type::not_found) throw out.error("no such file");
+    if (status.type() == std::filesystem::file_type::not_found) {
+      throw out.error("no such file" + similar_file(file));
+    }
     if (error) throw out.error("cannot be read: " + error.message());
     if (std::filesystem::is_directory(status)) {
       throw out.error("is a directory, expected " + expected);
@@ -209,7 +212,7 @@ std::string read_named_file(const std::filesystem::path& file,
                             std::size_t most,
                             const std::string& what) {
   if (!std::filesystem::exists(file)) {
-    throw input_error(file.string(), 0, "no such file, expected " + what);
+    throw input_error(file.string(), 0, "no such file, expected " + what + similar_file(file));
   }
   const OpenedFile in = open_input(file, what, most);
   return read_regular_file(in.path, most, "file");

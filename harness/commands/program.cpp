@@ -199,7 +199,7 @@ int run_command(CLI::App& app,
     print_error_lines(parse_error_text(app, error));
     return kExitBadInput;
   } catch (const InputError& error) {
-    return fail(with_similar_file(error.what()), kExitBadInput);
+    return fail(error.what(), kExitBadInput);
   } catch (const OptionError& error) {
     return fail(with_guess(error), kExitBadInput);
   } catch (const MissingPart& error) {

@@ -5,12 +5,9 @@
 #include <vector>
 
 #include "datasets/core/params.hpp"
+#include "datasets/files/closest_name.hpp"
 
 namespace loopbench::harness {
-
-/// The closest known name if it is similar enough for a typing error, otherwise empty.
-/// Distance: Damerau-Levenshtein (optimal string alignment). O(names * length^2).
-std::string closest(const std::string& given, const std::vector<std::string>& known);
 
 /// "no KIND is named 'x'", followed by the closest name ("did you mean 'y'?") or, without a similar
 /// name, the list of all names, if there are any.
@@ -21,8 +18,5 @@ std::string unknown_name(const std::string& kind,
 /// The message, with the closest of the options or words that it lists, or of further names that
 /// can take the place of an option ("did you mean 'y'?").
 std::string with_guess(const OptionError& error, const std::vector<std::string>& further = {});
-
-/// The message, with the closest name in the same folder if it is "FILE: no such file". O(files).
-std::string with_similar_file(std::string message);
 
 }  // namespace loopbench::harness
