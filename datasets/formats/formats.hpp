@@ -17,7 +17,19 @@ namespace loopbench {
 /// InputError `file:line: what was found, what was expected`. O(n).
 Trajectory read_trajectory(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// What the readers dropped, moved, chose and ignored, for notes.
+/// What a reader changed in rows, and in how many, or by how much.
+struct RowChange {
+  enum class Kind { dropped_rows, sorted_rows, repeated_stamps, normalised_rotations };
+  Kind kind = Kind::dropped_rows;
+  double value = 0.0;
+};
+std::vector<RowChange> row_changes(const ReadFindings& findings);
+std::string to_text(const RowChange& change);
+
+/// What the readers chose and ignored, for notes.
+std::vector<std::string> reading_choices(const ReadFindings& findings);
+
+/// The texts of both.
 std::vector<std::string> reading_notes(const ReadFindings& findings);
 
 /// Detects the format from the content. Throws InputError if it is unknown.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 
@@ -147,22 +148,39 @@ std::string scales_text(const MatrixScales& scales) {
 
 }  // namespace
 
-std::vector<std::string> reading_notes(const ReadFindings& findings) {
+std::vector<RowChange> row_changes(const ReadFindings& findings) {
+  using enum RowChange::Kind;
+  std::vector<RowChange> out{{dropped_rows, static_cast<double>(findings.invalid)},
+                             {sorted_rows, static_cast<double>(findings.unsorted)},
+                             {repeated_stamps, static_cast<double>(findings.agreeing)},
+                             {normalised_rotations, findings.off_orthonormal}};
+  std::erase_if(out, [](const RowChange& each) { return !(each.value > 0.0); });
+  return out;
+}
+
+std::string to_text(const RowChange& change) {
+  switch (change.kind) {
+    case RowChange::Kind::dropped_rows:
+      return fmt::format("invalid rows dropped: {:.0f}", change.value);
+    case RowChange::Kind::sorted_rows:
+      return fmt::format("rows sorted, places out of order: {:.0f}", change.value);
+    case RowChange::Kind::repeated_stamps:
+      return fmt::format("{:.0f} repeated stamps with agreeing poses, of which the first is kept",
+                         change.value);
+    case RowChange::Kind::normalised_rotations:
+      return fmt::format(
+          "rotation matrices are normalised, they deviate from orthonormal by up to {:.2g}",
+          change.value);
+  }
+  return "";
+}
+
+std::vector<std::string> reading_choices(const ReadFindings& findings) {
   std::vector<std::string> out;
   const auto note = [&](bool is_found, const std::string& text) {
     if (is_found) out.push_back(text);
   };
   const StampUnit unit = findings.units.front();
-  note(findings.invalid > 0, fmt::format("invalid rows dropped: {}", findings.invalid));
-  note(findings.unsorted > 0,
-       fmt::format("rows sorted, places out of order: {}", findings.unsorted));
-  note(findings.agreeing > 0,
-       fmt::format("{} repeated stamps with agreeing poses, of which the first is kept",
-                   findings.agreeing));
-  note(
-      findings.off_orthonormal > 0.0,
-      fmt::format("rotation matrices are normalised, they deviate from orthonormal by up to {:.2g}",
-                  findings.off_orthonormal));
   note(findings.scales.rows > 0, scales_text(findings.scales));
   note(unit == StampUnit::ms || unit == StampUnit::us, "stamps are read in " + to_text(unit));
   note(findings.opengl_axes,
@@ -171,6 +189,13 @@ std::vector<std::string> reading_notes(const ReadFindings& findings) {
   note(findings.angles == 3, "rotations are Rz(yaw) Ry(pitch) Rx(roll)");
   note(!findings.time_column.empty(), "time is " + findings.time_column);
   note(!findings.ignored_columns.empty(), "columns that are not read: " + findings.ignored_columns);
+  return out;
+}
+
+std::vector<std::string> reading_notes(const ReadFindings& findings) {
+  std::vector<std::string> out;
+  for (const RowChange& each : row_changes(findings)) out.push_back(to_text(each));
+  std::ranges::move(reading_choices(findings), std::back_inserter(out));
   return out;
 }
 

@@ -34,6 +34,11 @@ TEST(NoteText, IsMadeOfTheNumbers) {
   EXPECT_EQ(text({.kind = NoteKind::dataset, .subject = "a.txt", .detail = "sorted 3 rows"}),
             "a.txt: sorted 3 rows");
   EXPECT_EQ(
+      text({.kind = NoteKind::dropped_rows, .subject = "estimate", .numbers = {{"value", 2}}}),
+      "estimate: invalid rows dropped: 2");
+  EXPECT_EQ(text({.kind = NoteKind::normalised_rotations, .numbers = {{"value", 0.0125}}}),
+            "rotation matrices are normalised, they deviate from orthonormal by up to 0.013");
+  EXPECT_EQ(
       text({.kind = NoteKind::nondeterministic, .numbers = {{"runs", 3}, {"trajectories", 2}}}),
       "nondeterministic: 3 runs on the same input gave 2 different trajectories");
 }

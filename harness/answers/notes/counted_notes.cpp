@@ -25,12 +25,15 @@ std::string run_name(const RunNote& one) {
 
 /// What notes that are counted together share. Words of datasets and methods are not compared with
 /// each other, so equal ones only.
-using Key = std::tuple<std::string, NoteKind, std::string>;
+using Key = std::tuple<std::string, NoteKind, std::string, std::string>;
 
 Key key_of(const RunNote& one) {
   const Note& note = one.note;
   const bool is_text = note.numbers.empty();
-  return {one.method, note.kind, is_text ? note.detail : note.remedy.option};
+  return {one.method,
+          note.kind,
+          is_text ? note.detail : note.remedy.option,
+          is_text || is_of_reading(note.kind) ? note.subject : ""};
 }
 
 /// Whether a run passes the rules that are about runs and methods.

@@ -205,18 +205,25 @@ EvaluatedFile evaluated_estimate(const std::string& file,
   return out;
 }
 
-std::vector<std::string> reading_notes(const ReadFindings& findings, const std::string& whose) {
-  std::vector<std::string> out;
-  for (const std::string& note : reading_notes(findings)) out.push_back(whose + ": " + note);
-  if (findings.origin) out.push_back(whose + ": " + to_text(*findings.origin));
+std::vector<Note> reading_notes(const ReadFindings& findings, const std::string& whose) {
+  std::vector<Note> out;
+  for (const auto& [kind, value] : row_changes(findings)) {
+    const auto first = static_cast<int>(NoteKind::dropped_rows);
+    out.push_back({.kind = static_cast<NoteKind>(first + static_cast<int>(kind)),
+                   .subject = whose,
+                   .numbers = {{"value", value}}});
+  }
+  std::vector<std::string> words = reading_choices(findings);
+  if (findings.origin) words.push_back(to_text(*findings.origin));
   if (findings.assumed_axes) {
-    out.push_back(whose +
-                  ": the convention of the covariances is assumed, and '#%TANGENT_CONVENTION "
-                  "right_perturbation', left_perturbation or fixed_axes above the poses states it");
+    words.emplace_back(
+        "the convention of the covariances is assumed, and '#%TANGENT_CONVENTION "
+        "right_perturbation', left_perturbation or fixed_axes above the poses states it");
   }
   if (findings.without_fix > 0) {
-    out.push_back(whose + ": " + std::to_string(findings.without_fix) + " rows have no fix");
+    words.push_back(std::to_string(findings.without_fix) + " rows have no fix");
   }
+  for (const std::string& each : words) out.push_back({.subject = whose, .detail = each});
   return out;
 }
 

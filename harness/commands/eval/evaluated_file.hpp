@@ -8,6 +8,7 @@
 #include "datasets/formats/formats.hpp"
 #include "harness/commands/eval/arguments.hpp"
 #include "harness/commands/eval/evaluated_runs.hpp"
+#include "harness/sweep/model/note.hpp"
 
 namespace loopbench::harness {
 
@@ -41,8 +42,8 @@ EvaluatedFile evaluated_estimate(const std::string& file,
                                  bool with_digits,
                                  const EvaluatedFile* reference = nullptr);
 
-/// How latitudes and longitudes were converted, and rows without a fix.
-std::vector<std::string> reading_notes(const ReadFindings& findings, const std::string& whose);
+/// What reading a file changed, chose and assumed. `whose`: reference or estimate.
+std::vector<Note> reading_notes(const ReadFindings& findings, const std::string& whose);
 
 /// Handling of equal stamps: as stated, otherwise that of evo if every protocol pairs as evo does.
 /// Throws OptionError.

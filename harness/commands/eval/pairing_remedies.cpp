@@ -100,4 +100,11 @@ std::string pairing_remedies(const Trajectory& reference,
   return out;
 }
 
+std::string remedies_without_pairs(const Trajectory& reference,
+                                   const Trajectory& estimate,
+                                   const metrics::Protocol& rules) {
+  const bool has_pairs = pairs_of(reference, estimate, rules) > 0;
+  return has_pairs ? "" : pairing_remedies(reference, estimate, rules);
+}
+
 }  // namespace loopbench::harness

@@ -25,4 +25,9 @@ std::string pairing_remedies(const Trajectory& reference,
                              const Trajectory& estimate,
                              const metrics::Protocol& rules);
 
+/// The same where `rules` pair no pose, otherwise empty.
+std::string remedies_without_pairs(const Trajectory& reference,
+                                   const Trajectory& estimate,
+                                   const metrics::Protocol& rules);
+
 }  // namespace loopbench::harness

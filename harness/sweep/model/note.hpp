@@ -29,6 +29,11 @@ enum class NoteKind {
   common_times,     ///< evaluated over the times that all estimates cover
   damaged_file,
   nondeterministic,  ///< runs on equal input gave different trajectories
+  // What reading changed, in the order of RowChange::Kind.
+  dropped_rows,
+  sorted_rows,
+  repeated_stamps,
+  normalised_rotations,
   // Findings of `doctor`, with the names of metrics::Fault.
   time_offset,
   stamp_unit,
@@ -81,6 +86,10 @@ inline auto choices(NoteKind) {
                     std::pair{"common_times", common_times},
                     std::pair{"damaged_file", damaged_file},
                     std::pair{"nondeterministic", nondeterministic},
+                    std::pair{"dropped_rows", dropped_rows},
+                    std::pair{"sorted_rows", sorted_rows},
+                    std::pair{"repeated_stamps", repeated_stamps},
+                    std::pair{"normalised_rotations", normalised_rotations},
                     std::pair{"time_offset", time_offset},
                     std::pair{"stamp_unit", stamp_unit},
                     std::pair{"no_overlap", no_overlap},
@@ -156,6 +165,11 @@ struct Note {
 
   friend bool operator==(const Note&, const Note&) = default;
 };
+
+/// Whether it is about rows that reading a file changed.
+inline bool is_of_reading(NoteKind kind) {
+  return kind >= NoteKind::dropped_rows && kind <= NoteKind::normalised_rotations;
+}
 
 /// Whether `doctor` finds notes of this kind.
 inline bool is_of_doctor(NoteKind kind) { return kind >= NoteKind::time_offset; }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "datasets/core/fields.hpp"
+#include "datasets/formats/formats.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -138,6 +139,12 @@ std::string of_nondeterministic(const Note& note) {
       note.number("trajectories"));
 }
 
+std::string of_reading(const Note& note) {
+  const auto first = static_cast<int>(NoteKind::dropped_rows);
+  const auto kind = static_cast<RowChange::Kind>(static_cast<int>(note.kind) - first);
+  return to_text(RowChange{kind, note.number("value")});
+}
+
 using TextOf = std::string (*)(const Note&);
 
 TextOf text_of(NoteKind kind) {
@@ -171,6 +178,7 @@ TextOf text_of(NoteKind kind) {
     case NoteKind::nondeterministic:
       return of_nondeterministic;
     default:
+      if (is_of_reading(kind)) return of_reading;
       return is_of_doctor(kind) ? of_finding : of_words;
   }
 }
