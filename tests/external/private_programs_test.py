@@ -101,6 +101,66 @@ class PrivatePrograms(unittest.TestCase):
             self.assertEqual(list((self.folder / "tmp").iterdir()), [])
         self.assertEqual(self.select("SELECT DISTINCT value FROM provenance WHERE key = 'network'"), ["none"])
 
+    def test_data_that_a_command_names_stay_hidden(self):
+        self.write("prog/copy.sh", "cat $3; cp $1/keyframes.txt $2\n")
+        by_word = "sh prog/copy.sh {problem} {result} data/reference.txt"
+        by_line = "sh -c 'cat data/reference.txt; cp $0/keyframes.txt $1' {problem} {result}"
+        self.sweep([{"method": "command", "label": f"m{i}", "run": run} for i, run in enumerate((by_word, by_line))])
+        for method in ("m0", "m1"):
+            for said in self.outputs(method):
+                self.assertNotIn(SECRET, said)
+        self.assertEqual(self.select("SELECT count(*) FROM cell WHERE status = 'ok'"), [4])
+
+    def test_a_metric_can_leave_nothing_for_a_method(self):
+        """Beside devices, in settings of the kernel and among its keys, where the programs of root can write."""
+        self.write("prog/keys.py", """import ctypes, json, os, shutil, sys
+call = ctypes.CDLL(None).syscall
+add, keep, search = (lambda k: call(KEY, b'user', NAME, SECRET, len(SECRET), k)), (lambda k: call(CTL, 5, k, 0x3f3f3f3f)), (lambda k: call(CTL, 10, k, b'user', NAME, 0))
+KEY, CTL = {'x86_64': (248, 250), 'aarch64': (217, 219)}[os.uname().machine]
+NAME, SECRET, PLACES = b'loopbench-test', b'secret', ('/dev/loopbench-test', '/dev/pts/loopbench-test', '/dev/net/loopbench-test', '/run/loopbench-test')
+found = []
+for file in ('/proc/sys/kernel/hostname', '/proc/sys/kernel/core_pattern', '/proc/sys/vm/swappiness'):
+    try:
+        os.close(os.open(file, os.O_WRONLY))
+        found.append(file)
+    except OSError:
+        pass
+if os.path.exists(sys.argv[1] + '/keyframes.txt'):
+    found += [each for each in PLACES if os.path.exists(each)] + [str(k) for k in (-4, -5) if search(k) > 0]
+    print('found:', *found)
+    shutil.copy(sys.argv[1] + '/keyframes.txt', sys.argv[2])
+else:
+    for k in (-4, -5):
+        keep(add(k))
+    for each in PLACES:
+        try:
+            open(each, 'w').close()
+        except OSError:
+            pass
+    open(sys.argv[2], 'w').write(json.dumps({'scores': [{'name': 'n', 'unit': '1', 'value': len(found)}]}))
+""")
+        keys = "python3 prog/keys.py"
+        self.sweep(["raw", {"method": "command", "label": "keys", "run": keys + " {problem} {result}"}],
+                   ["ate", {"metric": "command", "label": "keys", "run": keys + " {evaluation} {result}"}], "--jobs 1")
+        for said in self.outputs("keys"):
+            self.assertTrue(said.endswith("found:"), said)
+        self.assertEqual(set(self.select("SELECT rmse FROM score WHERE label = 'keys'")), {0.0})
+        self.assertFalse(Path("/dev/loopbench-test").exists())
+
+    def test_data_are_hidden_at_other_mount_points(self):
+        mounts = "mkdir again && mount --bind data again"
+        if subprocess.run(["unshare", "-m", "sh", "-c", mounts], cwd=self.folder, capture_output=True).returncode:
+            self.skipTest("needs permission to mount")
+        self.write("prog/cat.sh", "cat again/*; cp $1/keyframes.txt $2\n")
+        self.write("c.yaml", json.dumps({"datasets": [self.dataset("data")], "metrics": ["ate"], "methods": [
+            {"method": "command", "label": "m", "run": "sh prog/cat.sh {problem} {result}"}]}))
+        command = f"mount --bind data again && exec '{PROGRAM}' run c.yaml --out out"
+        done = subprocess.run(["unshare", "-m", "sh", "-c", command], cwd=self.folder, env=self.environment,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for said in self.outputs("m"):
+            self.assertNotIn(SECRET, said)
+
     def test_a_program_that_serves_sees_nothing_either(self):
         self.write("prog/serves.sh", f"python3 prog/spy.py /nowhere /nowhere {SECRET[0]} {SECRET[1:]} {self.folder} {SERVER.port} "
                                      f"{NAME} >&2 2>/dev/null\nexit 3\n")

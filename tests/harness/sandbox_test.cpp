@@ -5,7 +5,9 @@
 
 #include <csignal>
 
+#include "harness/sweep/process/mounts.hpp"
 #include "harness/sweep/process/program.hpp"
+#include "harness/sweep/store/find_stores.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::sandbox_test {
@@ -76,6 +78,12 @@ TEST_F(Sandboxed, ItsOwnFolderCanBeListedButNotHiddenFilesInIt) {
       << "the folder of a file in its command line";
 }
 
+TEST_F(Sandboxed, HiddenFilesStayHiddenIfItsCommandNamesThem) {
+  EXPECT_EQ(printed("test -s \"$1\" && echo there", {"data/room/truth.txt"}, "data/room/truth.txt"),
+            "");
+  EXPECT_EQ(printed("ls ../data/room", {"data/room/truth.txt"}, "data/room/truth.txt"), "");
+}
+
 TEST_F(Sandboxed, ItWritesIntoItsFolderForTemporaryFilesOnly) {
   EXPECT_EQ(printed("echo x >../scratch/x && rm ../scratch/x && echo done", {}), "done\n");
   EXPECT_NE(printed("echo x >new || exit 3", {}), "");
@@ -93,11 +101,47 @@ TEST_F(Sandboxed, RootHasNoMoreRightsInItThanUsers) {
   EXPECT_EQ(printed("(echo x >/dev/tty) 2>/dev/null || echo no terminal", {}), "no terminal\n");
 }
 
+TEST_F(Sandboxed, DevicesAreThere) {
+  EXPECT_EQ(printed("head -c 4 /dev/urandom | wc -c; echo x >/dev/null; echo y >/dev/shm/y && "
+                    "cat /dev/shm/y",
+                    {}),
+            "4\ny\n");
+}
+
 TEST_F(Sandboxed, EndsOfProgramsAreReportedAsWithoutIt) {
   printed("exit 7", {});
   EXPECT_EQ(end_.exit_code, 7);
   printed("kill -SEGV $$", {});
   EXPECT_EQ(end_.signal, SIGSEGV);
+}
+
+TEST(OtherNames, AreThoseOfBindMounts) {
+  const std::string mounts =
+      "22 1 8:1 / / rw - ext4 /dev/sda1 rw\n"
+      "30 22 8:2 / /home rw shared:1 - ext4 /dev/sda2 rw\n"
+      "31 22 8:1 /srv/runs /mnt/the\\040runs rw - ext4 /dev/sda1 rw\n"
+      "32 22 8:2 /ann/data /data rw - ext4 /dev/sda2 rw\n"
+      "33 22 0:5 / /proc rw - proc proc rw\n";
+  using Paths = std::vector<std::filesystem::path>;
+  EXPECT_EQ(other_names("/home/ann/data/gt.txt", mounts), Paths{"/data/gt.txt"});
+  EXPECT_EQ(other_names("/data/gt.txt", mounts), Paths{"/home/ann/data/gt.txt"});
+  EXPECT_EQ(other_names("/data", mounts), Paths{"/home/ann/data"});
+  EXPECT_EQ(other_names("/srv/runs/a/gt.txt", mounts), Paths{"/mnt/the runs/a/gt.txt"});
+  EXPECT_EQ(other_names("/mnt/the runs/x", mounts), Paths{"/srv/runs/x"});
+  EXPECT_EQ(other_names("/home/ann/other", mounts), Paths{});
+  EXPECT_EQ(other_names("/srv/runs2/x", mounts), Paths{});
+  EXPECT_EQ(other_names("/x", ""), Paths{});
+}
+
+TEST(FilesOfOptions, AreDataAlsoInBags) {
+  const TemporaryFolder folder;
+  for (const char* const name : {"gt.bag", "gt.txt", "slam.py"}) folder.file(name, "x");
+  const DataRoot root{{folder.path()}};
+  using Paths = std::vector<std::filesystem::path>;
+  EXPECT_EQ(files_of_options({{"reference", "bag:gt.bag#/gt"}}, root),
+            Paths{folder.path() / "gt.bag"});
+  EXPECT_EQ(files_of_options({{"reference", "gt.txt"}, {"depends", "slam.py"}}, root),
+            Paths{folder.path() / "gt.txt"});
 }
 
 }  // namespace

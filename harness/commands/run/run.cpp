@@ -4,19 +4,16 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <thread>
 
 #include "harness/answers/tables/store_tables.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
+#include "harness/commands/run/plan.hpp"
 #include "harness/commands/run/run_output.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/sweep/catalogue/external_methods.hpp"
-#include "harness/sweep/catalogue/load_sequence.hpp"
 #include "harness/sweep/catalogue/loading.hpp"
-#include "harness/sweep/config/read_sweep.hpp"
 #include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/process/sandbox.hpp"
 #include "harness/sweep/process/write_file.hpp"
@@ -24,7 +21,6 @@
 #include "harness/sweep/run/estimate_files.hpp"
 #include "harness/sweep/run/isolated_sweep.hpp"
 #include "harness/sweep/run/run_cell.hpp"
-#include "harness/sweep/store/find_stores.hpp"
 #include "harness/sweep/store/shard.hpp"
 #include "harness/sweep/store/store.hpp"
 #include "harness/sweep/text/counted.hpp"
@@ -34,80 +30,11 @@
 namespace loopbench::harness {
 namespace {
 
-struct RunArguments {
-  std::string config;
-  std::string only;
-  std::string data;
-  std::string out;
-  std::vector<std::filesystem::path> plugins;
-  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  std::string shard;  ///< "3/8"; empty: all cells
-  bool dry_run = false;
-  std::string retry = "none";
-  bool fresh = false;
-  bool failed_cells_ok = false;
-  bool no_sandbox = false;
-  bool save_trajectories = false;
-};
-
-/// Larger sweeps get no tables and no summary after each run, because they take longer than
-/// matching the store with its config and all records do not fit into memory; `table` and `export`
-/// read them a few sequences at a time.
-constexpr std::size_t kMostCellsInTables = 100'000;
-
 /// Whether the method or a metric failed.
 bool has_failure(const CellResult& result) {
   return is_failure(result.status) ||
          std::ranges::any_of(result.scores,
                              [](const ScoreResult& score) { return is_failure(score.status); });
-}
-
-/// The folders that relative paths are searched in: the config's, then `data` if given.
-DataRoot data_root(const Sweep& sweep, const std::string& data) {
-  const std::filesystem::path beside = sweep.config.parent_path();
-  DataRoot root{{beside.empty() ? "." : beside}};
-  if (data.empty()) return root;
-  if (!std::filesystem::is_directory(data)) {
-    throw InputError(data +
-                     ": is not a folder; set --data or $LOOPBENCH_DATA to a folder with data");
-  }
-  root.folders.emplace_back(data);
-  return root;
-}
-
-/// What to run, and where the results go.
-struct RunPlan {
-  Catalogue known;
-  Sweep sweep;
-  DataRoot root;
-  std::vector<Cell> all;
-  std::vector<Cell> selected;  ///< of --only
-  std::vector<Cell> planned;   ///< of those, the shard's
-  std::optional<Shard> shard;
-  std::filesystem::path given;  ///< folder of the sweep's results
-  std::filesystem::path out;    ///< folder of the store
-
-  std::filesystem::path store() const { return out / "results.sqlite"; }
-  bool has_tables() const { return all.size() <= kMostCellsInTables; }
-};
-
-/// Throws InputError.
-RunPlan plan(const RunArguments& arguments) {
-  RunPlan out;
-  const std::filesystem::path config = config_path(arguments.config);
-  out.known = catalogue(with_config_plugins(arguments.plugins, config));
-  out.sweep = read_sweep(config, out.known, arguments.data);
-  out.root = data_root(out.sweep, arguments.data);
-  const std::vector<bool> with_seed = seeded(out.sweep, out.known);
-  out.all = cells(out.sweep, with_seed, "");
-  out.selected = cells(out.sweep, with_seed, arguments.only);
-  if (out.selected.empty()) throw InputError(arguments.config + ": no cells to run");
-  reject_standard_output("--out", arguments.out);
-  out.given = arguments.out.empty() ? "results/" + out.sweep.name : arguments.out;
-  if (!arguments.shard.empty()) out.shard = parse_shard(arguments.shard);
-  out.planned = cells_of(out.shard.value_or(Shard{}), out.selected);
-  out.out = out.shard ? out.given / "shards" / out.shard->folder() : out.given;
-  return out;
 }
 
 /// Runs the cells that the store lacks and writes them to it.
@@ -198,28 +125,6 @@ void tell(const RunPlan& plan, const CellCounts& counts, std::optional<Store>& s
   print_error(
       "loopbench: interrupted{}; finished cells are kept, the others run next time\n",
       counts.abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", counts.abandoned));
-}
-
-/// Hides the data of all sequences, also of those that are not loaded yet, and all stores in reach.
-SandboxOptions sandbox_of(const RunPlan& plan, const RunArguments& arguments) {
-  namespace fs = std::filesystem;
-  SandboxOptions out;
-  out.enabled = !arguments.no_sandbox;
-  if (!uses_programs(plan.sweep)) return out;
-  for (const DatasetChoice& choice : plan.sweep.datasets) {
-    if (choice.dataset.name == "simulated") continue;  // its path is no file
-    for (const fs::path& each : files_of_options(choice.dataset.options, plan.root)) {
-      out.hidden.push_back(each);
-    }
-  }
-  if (!arguments.data.empty()) out.hidden.emplace_back(arguments.data);
-  for (const fs::path& each :
-       {plan.given, plan.given / "results.sqlite", fs::temp_directory_path(), cache_folder()}) {
-    if (!each.empty()) out.hidden.push_back(each);
-  }
-  const std::vector<fs::path> near{plan.root.folders.front(), folder_of(plan.given), "."};
-  for (const fs::path& part : stores_in(near)) out.hidden.push_back(part);
-  return out;
 }
 
 /// Returns the exit code. Throws InputError, MissingPart.

@@ -1,8 +1,5 @@
 #include "harness/sweep/process/sandbox.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -11,7 +8,9 @@
 #include <sstream>
 #include <system_error>
 
-#include "harness/sweep/process/child_process.hpp"
+#include "harness/sweep/process/bubblewrap.hpp"
+#include "harness/sweep/process/mounts.hpp"
+#include "harness/sweep/process/system_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -21,33 +20,8 @@ namespace fs = std::filesystem;
 constexpr const char* kTemporary = "/tmp";
 
 /// Other folders in which processes leave files or answer; some may not exist.
-constexpr std::array<const char*, 6> kMeetingPlaces{
-    "/var/tmp", "/dev/mqueue", "/run/user", "/run/dbus", "/run/lock", "/run/docker.sock"};
-
-std::vector<std::string> base_arguments(bool network) {
-  std::istringstream words(
-      "bwrap --die-with-parent --new-session --unshare-pid --unshare-ipc --cap-drop ALL "
-      "--ro-bind / / --dev-bind /dev /dev "
-      "--tmpfs /dev/shm --proc /proc");
-  std::vector<std::string> out{std::istream_iterator<std::string>(words), {}};
-  if (!network) out.emplace_back("--unshare-net");
-  return out;
-}
-
-bool run_bubblewrap(bool network) {
-  ProgramCall call;
-  call.arguments = base_arguments(network);
-  call.arguments.insert(call.arguments.end(), {"--", "true"});
-  const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  call.output = call.errors = null;
-  bool out = false;
-  try {
-    out = ChildProcess(ProcessGroup::own, call).exit_code() == 0;
-  } catch (const std::runtime_error&) {  // it is not installed
-  }
-  close(null);
-  return out;
-}
+constexpr std::array<const char*, 4> kMeetingPlaces{
+    "/var/tmp", "/run/user", "/run/dbus", "/run/lock"};
 
 fs::path resolved(const fs::path& path) {
   std::error_code error;
@@ -92,6 +66,21 @@ std::vector<fs::path> needed_in(const fs::path& temporary) {
   return out;
 }
 
+/// Hides the services of the system, some of which read files for others.
+void hide_sockets(Views& views, const fs::path& folder) {
+  constexpr int kDeepest = 2;
+  constexpr std::size_t kMost = 2000;  // entries
+  std::error_code error;
+  const auto options = fs::directory_options::skip_permission_denied;
+  fs::recursive_directory_iterator entry(folder, options, error);
+  for (std::size_t seen = 0; entry != fs::recursive_directory_iterator() && !error; ++seen) {
+    if (seen == kMost) break;
+    if (entry.depth() >= kDeepest) entry.disable_recursion_pending();
+    if (entry->is_socket(error)) views.try_emplace(entry->path(), View::hidden_file);
+    entry.increment(error);
+  }
+}
+
 /// Hides what others leave in folders for temporary files.
 void hide_temporary(Views& views, const fs::path& writable) {
   const View view = writable.empty() ? View::hidden_folder : View::own_temporary;
@@ -99,8 +88,8 @@ void hide_temporary(Views& views, const fs::path& writable) {
   for (const char* const place : kMeetingPlaces) {
     std::error_code error;
     if (fs::is_directory(place, error)) views.try_emplace(resolved(place), View::hidden_folder);
-    if (fs::is_socket(place, error)) views.try_emplace(resolved(place), View::hidden_file);
   }
+  hide_sockets(views, "/run");
   for (const fs::path& each : needed_in(resolved(kTemporary))) views[each] = View::readable;
 }
 
@@ -153,6 +142,10 @@ std::vector<fs::path> program_files(const SandboxedProgram& program) {
 
 void show_own_folders(Views& views, const SandboxedProgram& program) {
   const Views hidden = views;
+  const auto is_hidden_file = [&](const fs::path& file) {
+    const auto found = hidden.find(file);
+    return found != hidden.end() && found->second == View::hidden_file;
+  };
   const fs::path writable = program.writable.empty() ? "" : resolved(program.writable);
   show(views, resolved(program.folder), writable);
   bool is_program = true;  // the first file that is not of the system
@@ -160,7 +153,7 @@ void show_own_folders(Views& views, const SandboxedProgram& program) {
     std::error_code error;
     const fs::path file = resolved(program.folder / name);
     if (fs::is_directory(file, error)) continue;
-    if (!fs::is_regular_file(file, error)) continue;
+    if (!fs::is_regular_file(file, error) || is_hidden_file(file)) continue;
     const fs::path folder = file.parent_path();
     if (is_program || !hidden.contains(folder)) show(views, folder, writable);
     views[file] = View::readable;
@@ -207,16 +200,6 @@ void append(std::vector<std::string>& out, const Views& views, const fs::path& o
 
 }  // namespace
 
-bool can_hide_network() {
-  static const bool out = run_bubblewrap(false);
-  return out;
-}
-
-bool has_bubblewrap() {
-  static const bool out = can_hide_network() || run_bubblewrap(true);
-  return out;
-}
-
 std::string missing_protection(const SandboxOptions& options) {
   if (!options.enabled || can_hide_network()) return "";
   if (has_bubblewrap())
@@ -230,7 +213,11 @@ std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
                                              const SandboxedProgram& program) {
   Views views;
   hide_temporary(views, program.writable);
-  for (const fs::path& path : options.hidden) hide(views, resolved(path));
+  const std::string mounts = read_system_file("/proc/self/mountinfo");
+  for (const fs::path& path : options.hidden) {
+    hide(views, resolved(path));
+    for (const fs::path& other : other_names(resolved(path), mounts)) hide(views, other);
+  }
   show_own_folders(views, program);
   for (const fs::path& path : program.readable) views[resolved(path)] = View::readable;
   fs::path own_temporary;
@@ -239,7 +226,7 @@ std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
     fs::create_directories(own_temporary);
     views[resolved(program.writable)] = View::writable;
   }
-  std::vector<std::string> out = base_arguments(program.network || !can_hide_network());
+  std::vector<std::string> out = bubblewrap_arguments(program.network || !can_hide_network());
   append(out, views, own_temporary);
   out.insert(out.end(), {"--chdir", resolved(program.folder).string(), "--"});
   out.insert(out.end(), program.arguments.begin(), program.arguments.end());

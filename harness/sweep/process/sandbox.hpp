@@ -3,9 +3,9 @@
 /// A program sees the file system read-only, with folders of data, results and references mounted
 /// empty, except what it was given, its own folder and its folder for temporary files. Within
 /// these, hidden files cannot be opened. /tmp is its own, the other folders for temporary files are
-/// empty, so it sees nothing of other cells. It has PID and IPC namespaces of its own, so nothing
-/// else can be signalled, and all of it ends with it; and a network of its own, without any other
-/// machine, unless its config says `network: true`.
+/// empty, so it sees nothing of other cells. It has devices, processes, IPC and keys of its own, so
+/// nothing else can be signalled or left for others, and all of it ends with it; and a network of
+/// its own, without any other machine, unless its config says `network: true`.
 ///
 /// Not protected: hidden files under other names (hard links, copies). Methods in C++ are not
 /// restricted: their process contains the reference that the cell is evaluated against.
@@ -14,6 +14,8 @@
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "harness/sweep/process/bubblewrap.hpp"
 
 namespace loopbench::harness {
 
@@ -31,19 +33,13 @@ struct SandboxedProgram {
   bool network = false;            ///< that of this machine instead of its own
 };
 
-/// Whether bubblewrap can start programs here. The first call starts one; later ones, also in
-/// forked processes, return the same.
-bool has_bubblewrap();
-
-/// Whether it can also give programs a network of their own.
-bool can_hide_network();
-
 /// What programs can reach here although they should not; "" if there is nothing. `options`: those
 /// of the sweep.
 std::string missing_protection(const SandboxOptions& options);
 
 /// The command line that runs the program under bubblewrap. Existing files in its command line are
-/// readable, with their folders unless these are hidden; of the program itself, its folder always.
+/// readable unless they are hidden themselves, with their folders unless these are hidden; of the
+/// program itself, its folder always. What is hidden is so at other mount points, too.
 /// Creates a folder in `writable` for its /tmp.
 std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
                                              const SandboxedProgram& program);

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/dataset.hpp"
 
 namespace loopbench::harness {
@@ -50,16 +51,16 @@ inline std::vector<std::filesystem::path> stores_in(
 }
 
 /// Existing files, and folders of recordings, that options of a dataset name, in the folders of
-/// `root`.
+/// `root`; not the files of its program.
 inline std::vector<std::filesystem::path> files_of_options(const Params& options,
                                                            const DataRoot& root) {
   std::vector<std::filesystem::path> out;
   for (const auto& [name, value] : options) {
     const auto* const text = std::get_if<std::string>(&value);
-    if (text == nullptr || text->empty()) continue;
+    if (text == nullptr || text->empty() || name == "depends") continue;
     for (const std::filesystem::path& folder : root.folders) {
       std::error_code error;
-      const std::filesystem::path file = folder / *text;
+      const std::filesystem::path file = folder / file_of(*text);
       const bool is_recording =
           (name == "path" || name == "sequence") && std::filesystem::is_directory(file, error);
       if (is_recording || std::filesystem::is_regular_file(file, error)) out.push_back(file);
