@@ -166,6 +166,8 @@ TEST_F(Damage, ALostOrChangedRowIsNoticedWhereverItWas) {
         "UPDATE score_value SET status = 'failed' WHERE cell = 2 AND number = 0",
         "UPDATE cell SET method = 'other' WHERE id = 2",
         "UPDATE sequence SET group_name = 'other'",
+        "UPDATE sequence SET group_kind = 'files'",
+        "UPDATE sequence SET recording = 'other'",
         "UPDATE sequence SET sequence_key = 'f' || sequence_key"}) {
     put(sound);
     change(damage);

@@ -174,7 +174,7 @@ TEST_F(StoreTest, AFileWithoutTablesIsBegunAnew) {
 TEST_F(StoreTest, ASchemaOfAnotherVersionIsRefused) {
   run(kUsual);
   Database(file_, Database::Mode::read).execute("PRAGMA user_version = 2");
-  expect_refused("schema 2, expected 18");
+  expect_refused("schema 2, expected 19");
 }
 
 TEST_F(StoreTest, TracesTellWhereItWasAndHowFarOff) {

@@ -192,7 +192,7 @@ TEST(Defect15, IndependentRunsAreNoGroupsAndABaselineDoesNotDifferFromItself) {
   }
   records.push_back(failed("office", 10, "bad"));
   for (Record& r : records) {
-    r.cell.edit().group = evaluated_group(std::to_string(r.cell->repeat), "a");
+    set_evaluated_group(r.cell.edit(), std::to_string(r.cell->repeat), "a");
   }
   const Comparison against_bad = compared(records, {.baseline = "bad"});
   EXPECT_TRUE(sentence(against_bad).starts_with("good is best, ")) << sentence(against_bad);

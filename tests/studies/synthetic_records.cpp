@@ -99,7 +99,7 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
         if (truth.states_groups && truth.runs_in_group > 1)
           r.cell.edit().group = std::to_string(group);
         if (truth.is_independent)
-          r.cell.edit().group = evaluated_group(std::to_string(r.cell->repeat), r.cell->sequence);
+          set_evaluated_group(r.cell.edit(), std::to_string(r.cell->repeat), r.cell->sequence);
         r.cell.edit().content = r.cell->sequence + " " + std::to_string(r.cell->repeat);
         const double effect =
             truth.effects[m] + (truth.sequences.empty() ? 0.0 : truth.sequences[sequence][m]);

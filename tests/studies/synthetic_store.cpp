@@ -33,6 +33,8 @@ CellResult result_of(const Record& record, const Cell& cell) {
   out.seconds = {1e-3};
   SequenceMetadata metadata;
   metadata.group = record.cell->group;
+  metadata.group_kind = record.cell->group_kind;
+  metadata.recording = record.cell->recording;
   metadata.content = record.cell->content;
   out.metadata = std::make_shared<const SequenceMetadata>(metadata);
   if (record.kind->metric.empty()) {

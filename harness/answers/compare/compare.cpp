@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "datasets/core/error.hpp"
-#include "harness/sweep/model/evaluated_run.hpp"
 #include "harness/sweep/model/name_order.hpp"
 #include "harness/sweep/text/suggest.hpp"
 #include "metrics/numerics/median.hpp"
@@ -50,13 +49,6 @@ std::vector<std::size_t> ranked_methods(const Observations& all, Comparison& out
   return ranked;
 }
 
-/// What runs of one recording share; empty where no recording is known.
-std::string recording_key(const ObservedRun& run) {
-  const std::string_view recording = recording_of(run.group);
-  const bool is_measured = run.group.starts_with("reference:");
-  return recording.empty() && is_measured ? run.group : std::string(recording);
-}
-
 std::size_t count(const std::vector<std::size_t>& group) {
   return group.empty() ? 0 : 1 + *std::ranges::max_element(group);
 }
@@ -68,9 +60,7 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   NameOrder sequences;
   std::map<std::string, std::string> first_labels;  // of the sequences by recording
   std::set<std::string> same_recordings;
-  out.is_paired = out.options.paired || std::ranges::any_of(all.runs, [](const ObservedRun& run) {
-                    return recording_of(run.group).empty();
-                  });
+  out.is_paired = out.options.paired || !std::ranges::all_of(all.runs, &ObservedRun::is_of_files);
   const auto fewest = std::min<std::ptrdiff_t>(out.is_paired ? 2 : 1, std::ssize(kept.methods));
   std::set<std::string> measured;
   for (std::size_t run = 0; run < all.runs.size(); ++run) {
@@ -84,7 +74,7 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
     const std::size_t sequence = sequences.index(sequence_key(all.runs[run]));
     const std::string& label = all.runs[run].sequence;
     if (sequence == kept.sequences.size()) kept.sequences.push_back(label);
-    if (const std::string key = recording_key(all.runs[run]); !key.empty()) {
+    if (const std::string& key = all.runs[run].recording; !key.empty()) {
       const std::string& first = first_labels.emplace(key, label).first->second;
       if (label != first) same_recordings.insert(label + " of " + first);
     }
@@ -174,6 +164,7 @@ MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size
   MethodVerdict out;
   out.method = all.methods[kept.methods[method_index]];
   if (const auto own = all.parts.find(out.method); own != all.parts.end()) out.parts = own->second;
+  out.is_stated = all.stated.contains(out.method);
   std::vector<double> values;
   double covered = 0.0;
   for (const std::size_t run : kept.runs) {

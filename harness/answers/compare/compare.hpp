@@ -55,6 +55,7 @@ struct Ratio {
 struct MethodVerdict {
   std::string method;
   MethodParts parts = {};
+  bool is_stated = false;      ///< some value is a time that it states itself
   double median = 0.0;         ///< of its values
   std::size_t runs = 0;        ///< runs with a value
   std::size_t fails = 0;       ///< runs on which it failed

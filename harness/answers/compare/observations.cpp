@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "harness/answers/compare/stated.hpp"
 #include "harness/answers/compare/typical.hpp"
-#include "harness/sweep/model/evaluated_run.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -50,8 +50,13 @@ void ObservationsBuilder::add(const Record& r) {
   const Unscored one{methods_.index(cell.method), run_names_.index(run_name), observed(r, value_)};
   if (one.method == parts_.size()) parts_.push_back(cell.parts);
   if (one.run == runs_.size()) {
-    runs_.push_back(
-        {run_name, cell.sequence, group_name(cell), cell.content, cell.oracle_closures});
+    runs_.push_back({.name = run_name,
+                     .sequence = cell.sequence,
+                     .group = group_name(cell),
+                     .recording = cell.recording,
+                     .is_of_files = cell.group_kind == GroupKind::files,
+                     .content = cell.content,
+                     .has_oracle_closures = cell.oracle_closures});
   }
   if (cell.oracle) {
     oracle_runs_.emplace(one.method, one.run);
@@ -73,6 +78,7 @@ void ObservationsBuilder::add(const Record& r) {
     tables_[kind->second].kind.better = metrics::Better::neither;  // none holds for all values
   }
   put(tables_[kind->second], one);
+  if (is_stated(r)) tables_[kind->second].stated.insert(cell.method);
 }
 
 std::vector<Observations> ObservationsBuilder::build() {
@@ -104,8 +110,7 @@ std::vector<Observations> observations(const std::vector<Record>& records,
 }
 
 std::string sequence_key(const ObservedRun& run) {
-  const std::string_view recording = recording_of(run.group);
-  return recording.empty() ? run.sequence : std::string(recording);
+  return run.is_of_files ? run.recording : run.sequence;
 }
 
 std::vector<std::size_t> group_numbers(const Observations& all,

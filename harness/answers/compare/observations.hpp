@@ -35,7 +35,9 @@ struct ObservedRun {
   std::string name;  ///< "room" or "room (repeat 2)"
   std::string sequence;
   std::string group;
-  std::string content;  ///< runs of equal non-empty content are one observation
+  std::string recording;     ///< CellRow::recording
+  bool is_of_files = false;  ///< independent of other runs of its recording
+  std::string content;       ///< runs of equal non-empty content are one observation
   bool has_oracle_closures = false;
   bool is_fair = false;  ///< some method does not use the reference
 };
@@ -49,6 +51,7 @@ struct Observations {
   std::vector<std::vector<Observed>> values;  ///< [method][run]
   std::vector<std::string> oracles;  ///< excluded: use the reference on a run where others do not
   std::set<std::string> unstable;    ///< methods that drop_duplicates() found to be random
+  std::set<std::string> stated;      ///< methods of which some value is a time that they state
 };
 
 /// Collects the values of every kind of score, record by record.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "harness/answers/compare/stated.hpp"
 #include "harness/answers/compare/verdict.hpp"
 #include "harness/sweep/text/counted.hpp"
 
@@ -57,7 +58,7 @@ std::string coverage_text(const Comparison& c, bool of_first) {
     largest = std::max(largest, m.coverage);
     if (!m.covers_less || (of_first && m.is_worse)) continue;
     out += out.empty() ? "" : ", ";
-    out += fmt::format("{} covers {:.0f} %", m.method, 100.0 * m.coverage);
+    out += fmt::format("{} covers {:.0f} %", shown_name(m), 100.0 * m.coverage);
   }
   if (out.empty()) return "";
   return out + fmt::format(" of the reference, others up to {:.0f} %", 100.0 * largest);
@@ -99,12 +100,13 @@ Lines remarks(const Comparison& c) {
       "groups)",
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
-      c.options.baseline));
+      baseline_name(c)));
+  if (std::ranges::any_of(c.methods, &MethodVerdict::is_stated)) out.emplace_back(kStatedNote);
   if (!c.can_show) return out;
   out.push_back(fmt::format(
       "p: {} against {}, corrected for {}",
       c.is_ratio ? "randomization test of log ratios" : "randomization test of differences",
-      c.options.baseline,
+      baseline_name(c),
       counted(c.tests, "test")));
   if (!c.is_ratio) out.push_back("no ratio of methods with negative values");
   return out;

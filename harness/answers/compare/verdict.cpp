@@ -33,11 +33,10 @@ const char* observed_unit(const Comparison& c) {
 
 /// Why the difference of a method to the baseline is no number.
 std::string without_number(const Comparison& c, const MethodVerdict& m) {
-  if (m.wins + m.losses + m.ties == 0)
-    return "without a run that " + c.options.baseline + " solved";
+  if (m.wins + m.losses + m.ties == 0) return "without a run that " + baseline_name(c) + " solved";
   return fmt::format("{} than {} on {} of {} {}",
                      m.wins >= m.losses ? "better" : "worse",
-                     c.options.baseline,
+                     baseline_name(c),
                      std::max(m.wins, m.losses),
                      m.wins + m.losses + m.ties,
                      c.is_independent ? "pairs of runs" : observed_unit(c));
@@ -76,7 +75,7 @@ std::string change_text(const Comparison& c, const VerdictGroup& of) {
         is_range ? range_text(change, sign) : percent_text(0.5 * sign * (change.low + change.high));
     out += " % " + side(is_below);
   }
-  out += " " + c.options.baseline;
+  out += " " + baseline_name(c);
   if (!of.interval) return out;
   return out + fmt::format(" ({:g} %: {})",
                            100.0 * (1.0 - c.options.alpha),
@@ -91,7 +90,7 @@ std::string failures_text(const Comparison& c, const std::vector<const MethodVer
   if (std::ranges::count(all, baseline) == 0) all.push_back(baseline);
   for (const MethodVerdict* m : all) {
     if (m->fails == 0) continue;
-    out += fmt::format("{}{} fails on {}", out.empty() ? "; " : ", ", m->method, m->fails);
+    out += fmt::format("{}{} fails on {}", out.empty() ? "; " : ", ", shown_name(*m), m->fails);
     if (m->fails_more) out += " (shown to be more often)";
   }
   if (out.empty()) return "";
@@ -134,7 +133,8 @@ std::string too_few_text(const Comparison& c) {
   constexpr std::size_t kMost = 3;
   if (c.groups > 1) {
     const MethodVerdict& m = first_other(c);
-    std::string out = cannot_decide_text(c) + "; " + m.method + " is " + names_text(c, {m.method});
+    std::string out =
+        cannot_decide_text(c) + "; " + shown_name(m) + " is " + names_text(c, {m.method});
     if (m.ratio && failures_text(c, {&m}).empty())
       out += fmt::format(" on {} of {}", std::max(m.wins, m.losses), m.wins + m.losses + m.ties);
     return out;
@@ -146,7 +146,7 @@ std::string too_few_text(const Comparison& c) {
   std::string out;
   for (std::size_t i = 0; i < std::min(kMost, methods.size()); ++i) {
     const MethodVerdict& m = *methods[i];
-    out += (i == 0 ? "" : ", ") + m.method;
+    out += (i == 0 ? "" : ", ") + shown_name(m);
     out += m.runs == 0 ? " failed" : fmt::format(" {:.3g}", m.median);
     if (m.runs > 0 && !c.kind.unit.empty()) out += " " + c.kind.unit;
     if (i == 0 || !m.ratio) continue;
@@ -167,7 +167,7 @@ std::vector<const MethodVerdict*> verdicts_of(const Comparison& c, const Names& 
 std::string common_corrector(const Comparison& c, const Names& methods) {
   const SharedText corrector = c.find(methods.front())->parts.corrector;
   const auto has_smoother = [&](const MethodVerdict& m) {
-    return m.parts.corrector == corrector && !m.parts.smoother.empty();
+    return m.parts.corrector == corrector && !m.parts.smoother.empty() && !m.is_stated;
   };
   const bool are_all = !corrector.empty() && methods.size() > 2 &&
                        methods.size() == names_where(c, has_smoother).size() &&
@@ -187,11 +187,12 @@ std::string common_name(const Comparison& c, const Names& methods) {
 std::string best_text(const Comparison& c, const Names& first, bool has_baseline) {
   const std::string name = common_name(c, first);
   const bool is_one = first.size() == 1 || !common_corrector(c, first).empty();
-  const char* const place = is_one ? " is best" : c.is_best ? " are best" : " share first place";
+  const char* place = c.is_best ? " are best" : " share first place";
+  if (is_one) place = " is best";
   if (!has_baseline) return name + place + ", " + names_text(c, first);
   if (first.size() > 1) return name + place;
   const MethodVerdict& next = first_other(c);
-  return "the baseline " + name + " is best: " + next.method + " is " +
+  return "the baseline " + name + " is best: " + shown_name(next) + " is " +
          names_text(c, {next.method});
 }
 
@@ -207,8 +208,8 @@ std::string shared_text(const Comparison& c) {
   const MethodVerdict& m = first_other(c);
   const bool is_open = !m.fails_more && std::ranges::none_of(c.methods, &MethodVerdict::is_worse);
   return fmt::format("{}: {} is {}",
-                     is_open ? "nothing is decided" : "no method beats " + c.options.baseline,
-                     m.method,
+                     is_open ? "nothing is decided" : "no method beats " + baseline_name(c),
+                     shown_name(m),
                      names_text(c, {m.method}));
 }
 

@@ -72,6 +72,12 @@ std::string short_title(const Comparison& comparison);
 /// "ate rotation rmse, dense, loopbench".
 std::string title(const Comparison& comparison);
 
+/// The method, marked if its values are times that it states itself.
+std::string shown_name(const MethodVerdict& method);
+
+/// That of the baseline.
+std::string baseline_name(const Comparison& comparison);
+
 /// "dual + dm_n3, dm_n4, 8 more": of methods without a label of their own, without the corrector
 /// that is also the first one's.
 std::string short_names(const std::vector<const MethodVerdict*>& methods,

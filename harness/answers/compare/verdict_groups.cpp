@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/answers/compare/stated.hpp"
 #include "harness/answers/compare/verdict.hpp"
 
 namespace loopbench::harness {
@@ -89,7 +90,8 @@ std::string best_there(const Comparison& c, const std::string& sequence) {
       found = one.ratio;
     }
   }
-  return best == nullptr ? "" : ", " + best->method + " " + percent_of_ratio(found) + " better";
+  return best == nullptr ? ""
+                         : ", " + shown_name(*best) + " " + percent_of_ratio(found) + " better";
 }
 
 /// At most one for each method: the worst sequence.
@@ -107,12 +109,14 @@ void add_cautions(std::vector<Caution>& out, const Comparison& c, const std::str
     // That a method is worse over all is in the table of groups, but not for the rotation.
     if (!worst && (axis.empty() || !m.is_beaten)) continue;
     std::string text =
-        axis + m.method + " is " + percent_of_ratio(ratio) + " worse than " + c.options.baseline;
+        axis + shown_name(m) + " is " + percent_of_ratio(ratio) + " worse than " + baseline_name(c);
     if (worst != nullptr) text += " on " + worst->sequence + best_there(c, worst->sequence);
     if (sequences > 1) text += fmt::format("; worse on {} sequences", sequences);
     out.push_back({std::abs(std::log(ratio)), text});
   }
 }
+
+const char* mark_of(const MethodVerdict& m) { return m.is_stated ? kStatedMark : ""; }
 
 /// Whether the method is a corrector with a smoother, and its name is what a config without a label
 /// gives it.
@@ -123,6 +127,13 @@ bool is_named_by_stages(const MethodVerdict& m) {
 }
 
 }  // namespace
+
+std::string shown_name(const MethodVerdict& m) { return m.method + mark_of(m); }
+
+std::string baseline_name(const Comparison& c) {
+  const MethodVerdict* const found = c.find(c.options.baseline);
+  return found == nullptr ? c.options.baseline : shown_name(*found);
+}
 
 VerdictGroup group_of(const std::vector<const MethodVerdict*>& members,
                       const Names& sequences,
@@ -160,18 +171,17 @@ std::string short_names(const std::vector<const MethodVerdict*>& methods,
   for (const MethodVerdict* m : methods) {
     const bool is_same = m != methods.front() && is_named_by_stages(*m) &&
                          is_named_by_stages(*methods.front()) && m->parts.corrector == corrector;
-    names.push_back(is_same ? m->parts.smoother.text() : m->method);
+    names.push_back(is_same ? m->parts.smoother + mark_of(*m) : shown_name(*m));
   }
   if (names.size() > kMost) {
     names[kMost - 1] = fmt::format("{} more", names.size() - (kMost - 1));
     names.resize(kMost);
     return fmt::format("{}", fmt::join(names, ", "));
   }
-  std::string out;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    out += (i == 0 ? "" : i + 1 == names.size() ? last_separator : ", ") + names[i];
-  }
-  return out;
+  if (names.size() == 1) return names.front();
+  const std::string last = last_separator + names.back();
+  names.pop_back();
+  return fmt::format("{}{}", fmt::join(names, ", "), last);
 }
 
 std::vector<VerdictGroup> groups_of(const Comparison& c, const Names& sequences) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "harness/answers/compare/stated.hpp"
 #include "harness/answers/compare/verdict.hpp"
 
 namespace loopbench::harness {
@@ -17,7 +18,7 @@ std::string legend_of(const Comparison& c, const Verdict& v) {
   if (c.kind.better == metrics::Better::target) {
     out += fmt::format("of |value - {:g}| ", c.kind.target);
   }
-  out += "to " + c.options.baseline + " [%], typical over " + unit_text(c);
+  out += "to " + baseline_name(c) + " [%], typical over " + unit_text(c);
   if (std::ranges::any_of(
           c.methods, [](const MethodVerdict& m) { return m.ratio && m.ratio->is_of_sequences; }))
     out += " (mean of the sequences)";
@@ -32,6 +33,8 @@ std::string legend_of(const Comparison& c, const Verdict& v) {
     out += fmt::format("; =: shares first place, >: shown to be worse, typically by {:g} % or more",
                        100.0 * c.options.relevant);
   }
+  if (std::ranges::any_of(c.methods, &MethodVerdict::is_stated))
+    out += std::string("; ") + kStatedNote;
   if (c.kind.times == "dense") out += "; dense: also between keyframes";
   if (c.is_independent) {
     out += "; runs of a sequence are independent (compare --paired pairs equal names)";

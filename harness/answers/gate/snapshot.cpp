@@ -85,8 +85,8 @@ void add_sequences(const std::filesystem::path& store, Snapshot& out) {
     const std::string label = cell.run_name();
     if (!cell.content.empty()) out.contents[label] = cell.content;
     // Larger groups leave fewer independent runs, so that the test could no longer fail.
-    const bool is_stated = cell.group.text().starts_with("group:");
-    if (is_stated && grouped.insert(label).second) out.sequences[label] += "; " + cell.group;
+    const bool is_named = cell.group_kind == GroupKind::named;
+    if (is_named && grouped.insert(label).second) out.sequences[label] += "; " + cell.group;
   }
 }
 

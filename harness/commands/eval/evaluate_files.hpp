@@ -29,7 +29,7 @@ struct Evaluations {
 /// are repeats. Runs that it already has are kept; unchanged files are not evaluated again, except
 /// those that failed. Every run of a sequence is a group of its own, so that conclusions hold for
 /// other runs on these sequences; runs with the same number on equal references are one group, see
-/// evaluated_group(). Throws InputError, OptionError; the store is then unchanged if it is the
+/// set_evaluated_group(). Throws InputError, OptionError; the store is then unchanged if it is the
 /// result of a sweep or a reference cannot be read. O(poses).
 Evaluations evaluate_files(const EvalArguments& arguments, const Source& source = {});
 

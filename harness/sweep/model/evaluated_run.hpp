@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "harness/sweep/model/run_group.hpp"
 #include "harness/sweep/text/hash.hpp"
 
 namespace loopbench::harness {
@@ -37,18 +38,14 @@ inline std::string why_other_options(std::string_view earlier, std::string_view 
   return "its files were read with " + options + ", those of the earlier stores with " + others;
 }
 
-inline constexpr std::string_view kOnRecording = " on recording ";
-
-/// CellRow::group of a run. The recording is identified by the poses of the reference, because the
-/// same recording under several names is not several independent sequences.
-inline std::string evaluated_group(const std::string& run, const std::string& recording) {
-  return "run " + run + std::string(kOnRecording) + recording;
-}
-
-/// The recording of such a group; empty for groups of sweeps.
-inline std::string_view recording_of(std::string_view group) {
-  const std::size_t at = group.starts_with("run ") ? group.rfind(kOnRecording) : group.npos;
-  return at == group.npos ? std::string_view() : group.substr(at + kOnRecording.size());
+/// Sets the group of a run, of metadata or of a cell. The recording is identified by the poses of
+/// the reference, because the same recording under several names is not several independent
+/// sequences.
+template <class Facts>
+void set_evaluated_group(Facts& facts, const std::string& run, const std::string& recording) {
+  facts.group = "run " + run + " on recording " + recording;
+  facts.group_kind = GroupKind::files;
+  facts.recording = recording;
 }
 
 /// CellRow::content of a run from the content (estimate and reference) of each of its methods: two

@@ -11,6 +11,7 @@
 
 #include "harness/sweep/model/method_parts.hpp"
 #include "harness/sweep/model/note.hpp"
+#include "harness/sweep/model/run_group.hpp"
 #include "harness/sweep/model/shared.hpp"
 #include "harness/sweep/model/shared_text.hpp"
 #include "harness/sweep/model/status.hpp"
@@ -44,7 +45,9 @@ struct CellRow : MeasuredFacts {
   bool oracle_closures = false;
   bool oracle = false;  ///< the method has access to the reference
   SharedText group;     ///< runs of one group are not independent; empty: a group of its own
-  SharedText content;   ///< hash of problem and reference, equal for equal inputs; can be empty
+  GroupKind group_kind = GroupKind::none;
+  SharedText recording;  ///< runs of one recording, see SequenceMetadata; empty: unknown
+  SharedText content;    ///< hash of problem and reference, equal for equal inputs; can be empty
   std::int64_t keyframes = 0;      ///< of the sequence; 0: it could not be loaded
   std::int64_t closure_count = 0;  ///< of the sequence
   SharedText worker;          ///< "isolated" or "in process", with ", serial" and ", pinned" if so

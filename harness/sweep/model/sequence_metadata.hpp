@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/sweep/model/note.hpp"
+#include "harness/sweep/model/run_group.hpp"
 #include "harness/sweep/model/trace.hpp"
 
 namespace loopbench::harness {
@@ -32,9 +33,11 @@ struct SequenceMetadata {
   std::string closures;          ///< source of the loop closures
   bool oracle_closures = false;  ///< the closures were measured or selected with the reference
   SequenceSize size;
-  std::string content;      ///< hash of problem and reference: equal content is one observation
-  std::string source;       ///< recording or noise, see source_of()
-  std::string group;        ///< runs of one group are not independent: the source, or `group:NAME`
+  std::string content;  ///< hash of problem and reference: equal content is one observation
+  std::string source;   ///< recording or noise, see source_of()
+  std::string group;    ///< runs of one group are not independent: the source, or `group:NAME`
+  GroupKind group_kind = GroupKind::none;
+  std::string recording;    ///< equal if references are, or by a stated name; empty: unknown
   std::vector<Note> notes;  ///< what loading and the checks of its poses found
   SequenceTrace trace;      ///< empty if the sweep keeps no traces
 };

@@ -61,6 +61,7 @@ template <class Archive, Either<harness::SequenceMetadata> T>
 void walk(Archive& a, T& metadata) {
   a(metadata.inputs)(metadata.closures)(metadata.oracle_closures)(metadata.size)(metadata.notes);
   a(metadata.content)(metadata.source)(metadata.group);
+  a(metadata.group_kind)(metadata.recording);
   a(metadata.trace.origin)(metadata.trace.reference)(metadata.trace.keyframes)(
       metadata.trace.closures)(metadata.trace.ledger);
 }

@@ -161,10 +161,14 @@ std::string content_of(const Sequence& sequence) {
   return hash.text();
 }
 
+bool is_recording(const Sequence& sequence) {
+  return sequence.provenance.noise.empty() && !sequence.reference.empty();
+}
+
 std::string source_of(const Sequence& sequence) {
   const std::string& noise = sequence.provenance.noise;
   if (!noise.empty()) return "noise:" + hex(hash_of(noise));
-  if (!sequence.reference.empty()) {
+  if (is_recording(sequence)) {
     const Pose offset = sequence.provenance.body_from_reference.value_or(Pose{});
     return "reference:" + hash_of_shape(sequence.reference, offset);
   }
@@ -199,6 +203,8 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
   out.content = content_of(sequence);
   out.source = source_of(sequence);
   out.group = out.source;
+  out.group_kind = GroupKind::source;
+  if (is_recording(sequence)) out.recording = out.source;
   for (const std::string& note : sequence.provenance.notes) out.notes.push_back({.detail = note});
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
     out.notes.push_back({.kind = NoteKind::detection,
@@ -225,7 +231,11 @@ SequenceMetadata metadata_of(const Sequence& sequence, const Cell& cell, const S
   }
   SequenceMetadata out = sequence_metadata(sequence, sweep.traces);
   const std::string& group = sweep.datasets[cell.dataset].group;
-  if (!group.empty()) out.group = "group:" + group;
+  if (!group.empty()) {
+    out.group = "group:" + group;
+    out.group_kind = GroupKind::named;
+    out.recording = "";
+  }
   for (const auto& notes : {evaluation_notes(sequence, sweep), doctor_notes(sequence, sweep)}) {
     out.notes.insert(out.notes.end(), notes.begin(), notes.end());
   }

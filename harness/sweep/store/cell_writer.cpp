@@ -231,7 +231,7 @@ void CellWriter::write_metadata(const Cell& cell,
   insert_into(database_, "sequence", "INSERT OR REPLACE")
       .bind(sequence_key, keys.configuration_hash(cell), keys.dataset_text(cell))
       .bind(size.keyframes, size.odometry, size.closures, size.frames, size.reference)
-      .bind(metadata.content, metadata.group)
+      .bind(metadata.content, metadata.group, to_text(metadata.group_kind), metadata.recording)
       .run();
   const SequenceTrace& trace = metadata.trace;
   if (trace.keyframes.empty()) return;

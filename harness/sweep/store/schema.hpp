@@ -12,7 +12,7 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 18;
+inline constexpr int kSchemaVersion = 19;
 
 /// The columns of statistics but count: "rmse,", with texts before and after each name, in one
 /// line, or percentiles after `gap`.
@@ -96,7 +96,9 @@ inline const std::string kSchema =
     frames INTEGER NOT NULL,           -- tracked between keyframes
     reference INTEGER NOT NULL,        -- number of reference poses
     content TEXT NOT NULL,             -- hash of problem and reference; '': unknown
-    group_name TEXT NOT NULL           -- runs of one group are not independent; '': none
+    group_name TEXT NOT NULL,          -- runs of one group are not independent; '': none
+    group_kind TEXT NOT NULL,          -- none | source | named | files
+    recording TEXT NOT NULL            -- equal for runs of one recording; '': unknown
     ) WITHOUT ROWID;
   CREATE TABLE cell (
     id INTEGER PRIMARY KEY,            -- column `cell` of the other tables
@@ -230,7 +232,7 @@ inline const std::string kCellColumns =
 inline constexpr const char* kCellsWithSequences = "cell LEFT JOIN sequence USING (sequence_key)";
 inline constexpr const char* kSequenceColumns =
     "sequence.sequence_key, configuration_hash, options, keyframes, odometry, sequence.closures, "
-    "frames, reference, content, group_name";
+    "frames, reference, content, group_name, group_kind, recording";
 
 /// A table with rows that cells share, with its key as first column and `row_hash` as last.
 struct SharedTable {

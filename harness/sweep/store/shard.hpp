@@ -29,7 +29,7 @@ inline std::vector<std::size_t> sequence_numbers(const std::vector<Cell>& cells)
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const bool begins = i > 0 && (cells[i].dataset != cells[i - 1].dataset ||
                                   cells[i].repeat != cells[i - 1].repeat);
-    out.push_back(i == 0 ? 0 : out.back() + (begins ? 1 : 0));
+    out.push_back(i == 0 ? 0 : out.back() + static_cast<std::size_t>(begins));
   }
   return out;
 }
