@@ -54,6 +54,7 @@ def scores_of(methods):
     ratios = [{"method": name, "ratio": 0.95**m, "interval": [0.9**m, 1.1] if m else None}
               for m, name in enumerate(methods)]
     own = {"methods": methods, "styles": styles, "oracle": [False] * len(methods), "kinds": kinds,
+           "stated": [False] * len(methods),
            "sequences": ["room", "it's <here> & $there$"], "growth": growth, "cells": cells}
     comparisons = [{**kinds[1], "baseline": methods[0], "methods": ratios}]
     names = {name: name for name in methods}
@@ -119,6 +120,14 @@ class Draw(unittest.TestCase):
         points = [line.get_xydata()[0].tolist() for line in time.lines[1:]]
         np.testing.assert_allclose(points, [[1.0, 1.1 * 2**0.5], [0.1, 2.1 * 2**0.5]])
         self.assertEqual([text.get_text() for text in time.texts], ["slow", "fast"])
+        self.assertEqual(time.get_xlabel(), "time of the method [ms]")
+
+    def test_times_that_programs_state_are_marked(self):
+        data = scores_of(["slow", "fast"])
+        data["scores"]["scores"]["stated"] = [False, True]
+        time = draw.figure(data, ["time"]).axes[0]
+        self.assertEqual([text.get_text() for text in time.texts], ["slow", "fast (s)"])
+        self.assertEqual(time.get_xlabel(), "time [ms], (s): stated by the program")
 
     def test_the_front_is_that_of_the_report(self):
         for errors, times, kept in (([1, 2, 3, 2, 4], [4, 2, 3, 3, 1], "11001"), ([1, 1, 1], [2, 2, 3], "110"),

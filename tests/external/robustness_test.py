@@ -76,6 +76,20 @@ open(sys.argv[2] + '.json', 'w').write('{"counts": {"program_cpu_seconds": 1e-6,
                          ["from start to end of the program", "start and exchange", "correct"])
         for line in ("table r", "table r --format csv", "table r --show wall"):
             self.assertRegex(self.call(line), r"\(s\)|stated")
+        self.assertIn("stated_times,", (self.folder / "r/rows.csv").read_text().splitlines()[0])
+
+    def test_the_time_that_a_program_states_is_marked_where_methods_are_compared(self):
+        self.write("states.sh", "cp $1/keyframes.txt $2; echo '{\"seconds\": 1e-3}' >$2.json\n")
+        self.configure(["raw", {"method": "command", "label": "states", "run": "sh states.sh {problem} {result}"}])
+        self.call("run c.yaml --out r")
+        said = self.call("compare r --metric time")
+        self.assertRegex(said, r"time, \w+: raw [0-9.e-]+ ms, states \(s\) 1\.[0-9]+ ms")
+        self.assertIn("(s): as the program states it", said)
+        self.assertEqual([each["stated"] for each in json.loads(self.call("compare r --metric time --format json"))
+                          ["comparisons"][0]["methods"]], [False, True])
+        self.assertNotIn("(s)", self.call("compare r --metric ate"))
+        self.call("report r -o r.html")
+        self.assertRegex((self.folder / "r.html").read_text(), r'"stated": ?\[false, ?true\]')
 
     def test_version_has_the_limits_of_a_cell(self):
         entry = {"method": "command", "run": "cp {problem}/keyframes.txt {result}"}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/answers/compare/stated.hpp"
 #include "harness/answers/report/sections.hpp"
 #include "harness/answers/tables/growth.hpp"
 #include "harness/sweep/catalogue/exchange.hpp"
@@ -62,7 +63,7 @@ std::string time_text(const std::vector<const CellRow*>& cells) {
     const auto found = std::ranges::find(cell.phases, kWallPhase, &methods::Phase::name);
     return found == cell.phases.end() ? std::nullopt : std::optional(found->seconds);
   });
-  return wall.empty() ? time : time + " (s), wall " + milliseconds(wall);
+  return wall.empty() ? time : time + kStatedMark + ", wall " + milliseconds(wall);
 }
 
 std::string megabytes(const std::vector<double>& bytes) {

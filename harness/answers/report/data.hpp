@@ -16,11 +16,11 @@
 
 namespace loopbench::harness {
 
-/// {methods, styles, default_methods, oracle, sequences, baseline, statistics, kinds,
-/// sequence_families, method_families, growth, cells}: every score of every cell to five digits.
-/// styles: {color, dash} of each method as in `plot`; default_methods: indices of the methods that
-/// are shown first. A cell is {sequence, method, repeat, ms, values}: indices of its sequence and
-/// method, repeat, time [ms], and for each kind null or its statistics.
+/// {methods, styles, default_methods, oracle, stated, stated_note, sequences, baseline, statistics,
+/// kinds, sequence_families, method_families, growth, cells}: every score of every cell to five
+/// digits. styles: {color, dash} of each method as in `plot`; default_methods: indices of the
+/// methods that are shown first. A cell is {sequence, method, repeat, ms, values}: indices of its
+/// sequence and method, repeat, time [ms], and for each kind null or its statistics.
 nlohmann::json scores_json(const ReportContent& content);
 
 /// Amount of trace data in the report.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "harness/answers/compare/stated.hpp"
 #include "harness/answers/report/curve.hpp"
 #include "harness/answers/report/data.hpp"
 #include "harness/answers/tables/growth.hpp"
@@ -79,12 +80,13 @@ nlohmann::json scores_json(const ReportContent& content) {
   Places sequence, method;
   for (const std::string& name : content.shown_sequences()) sequence.emplace(name, sequence.size());
   for (const std::string& name : content.methods) method.emplace(name, method.size());
-  std::vector<bool> oracle(content.methods.size(), false);
+  std::vector<bool> oracle(content.methods.size(), false), stated = oracle;
 
   nlohmann::json cells = nlohmann::json::array();
   for (const CellRow& cell : content.shown_cells) {
     const std::size_t m = method.at(cell.method);
     if (cell.oracle) oracle[m] = true;
+    if (cell.is_stated()) stated[m] = true;
     nlohmann::json values = nlohmann::json::array();
     const auto& own = scores[cell.position];
     for (std::size_t k = 0; k < kinds.size(); ++k) {
@@ -112,6 +114,8 @@ nlohmann::json scores_json(const ReportContent& content) {
           {"styles", std::move(styles)},
           {"default_methods", std::move(shown)},
           {"oracle", oracle},
+          {"stated", stated},
+          {"stated_note", kStatedNote},
           {"sequences", content.shown_sequences()},
           {"baseline", content.run_value("baseline")},
           {"statistics", {"rmse", "mean", "median", "max"}},

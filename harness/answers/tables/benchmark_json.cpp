@@ -53,6 +53,7 @@ void add_complexity(const Growth& growth, nlohmann::ordered_json& out) {
   JsonEntry& law = add("BigO", "time");
   law["cpu_coefficient"] = 1e3 * cpu->factor;
   law["real_coefficient"] = 1e3 * real->factor;
+  if (growth.is_stated) law["real_time_is_stated"] = true;
   law["big_o"] = fmt::format("N^{:.2f}", cpu->exponent);
   law["time_unit"] = "us";
   add("RMS", "percentage")["rms"] = cpu->rms;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "datasets/core/fields.hpp"
+#include "harness/answers/compare/stated.hpp"
 #include "harness/answers/tables/record_csv.hpp"
 #include "harness/sweep/text/counted.hpp"
 #include "harness/sweep/text/wrap.hpp"
@@ -21,7 +22,7 @@ std::string p_text(double p) { return p < 0.0001 ? "< 0.0001" : fmt::format("{:.
 std::string median_text(const Comparison& c, const MethodVerdict& m, int digits) {
   if (m.runs == 0) return "-";
   const std::string over = m.fails > 0 ? fmt::format(" ({} of {})", m.runs, c.runs) : "";
-  return fixed(m.median, digits) + over;
+  return fixed(m.median, digits) + (m.is_stated ? kStatedMark : "") + over;
 }
 
 using Json = nlohmann::ordered_json;
@@ -141,6 +142,7 @@ Json method_json(const MethodVerdict& m) {
           {"worse", m.losses},
           {"equal", m.ties},
           {"p", number_or_null(m.p)},
+          {"stated", m.is_stated},
           {"place", m.is_worse ? ">" : "="}};
 }
 
@@ -196,8 +198,8 @@ Table table_view(const Comparison& c) {
     const VerdictGroup& group = groups[i];
     const bool is_baseline = m.method == c.options.baseline;
     const auto unless_baseline = [&](const std::string& text) { return is_baseline ? "" : text; };
-    const char* const place = !c.can_show ? "" : m.is_worse ? "> " : "= ";
-    out.lines.push_back({{place + m.method, c.is_best && !m.is_worse},
+    const char* const place = m.is_worse ? "> " : "= ";
+    out.lines.push_back({{(c.can_show ? place : "") + m.method, c.is_best && !m.is_worse},
                          {median_text(c, m, decimals(largest))},
                          {unless_baseline(optional_text(group.all, 0.0, more))},
                          {unless_baseline(optional_text(group.interval, 0.0))},
@@ -226,7 +228,7 @@ std::string csv(const std::vector<Comparison>& comparisons) {
   const std::string columns =
       "protocol,times,metric,label,relation,axis,unit,value,baseline,over,groups,runs,method,"
       "median,with_value,fails,ratio,ratio_low,ratio_high,geometric_mean,better,worse,equal,p,";
-  std::string out = columns + "place\n";
+  std::string out = columns + "place,stated\n";
   for (const Comparison& c : comparisons) {
     for (const MethodVerdict& m : c.methods) {
       Json all = score_json(c);
@@ -237,7 +239,7 @@ std::string csv(const std::vector<Comparison>& comparisons) {
       }
       std::istringstream names(columns);
       for (std::string name; std::getline(names, name, ',');) out += csv_field(all[name]) + ",";
-      out += m.is_worse ? ">\n" : "=\n";
+      out += fmt::format("{},{}\n", m.is_worse ? ">" : "=", m.is_stated);
     }
   }
   return out;

@@ -96,8 +96,14 @@ Growth growth_of(const OptionFamily& family,
                  const std::string& method,
                  std::int64_t CellRow::*size,
                  const CellsOf& cells) {
-  Growth out{
-      family.name, size == &CellRow::keyframes ? "keyframes" : "closures", method, {}, {}, {}, {}};
+  Growth out{family.name,
+             size == &CellRow::keyframes ? "keyframes" : "closures",
+             method,
+             {},
+             {},
+             {},
+             {},
+             false};
   std::map<double, std::vector<const CellRow*>> by_size;
   for (const OptionFamily::Member& member : family.members) {
     const auto found = cells.find({member.name, method});
@@ -112,6 +118,7 @@ Growth growth_of(const OptionFamily& family,
     for (const CellRow* cell : own) {
       cpu.push_back(1e3 * *cell->cpu_seconds);
       wall.push_back(1e3 * cell->seconds);
+      out.is_stated = out.is_stated || cell->is_stated();
       if (cell->peak_memory) memory.push_back(1e-6 * static_cast<double>(*cell->peak_memory));
     }
     out.sizes.push_back(own_size);

@@ -38,6 +38,7 @@ struct Growth {
   std::vector<double> cpu;     ///< processor time [ms]
   std::vector<double> wall;    ///< [ms]
   std::vector<double> memory;  ///< peak [MB]; NaN: unknown
+  bool is_stated = false;      ///< some wall time is a statement of the program
 };
 
 /// Of each family of sequences with three sizes or more, and each method that has results on three.

@@ -8,6 +8,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/answers/compare/observations.hpp"
+#include "harness/answers/compare/stated.hpp"
 #include "harness/answers/tables/table_numbers.hpp"
 
 namespace loopbench::harness {
@@ -112,8 +113,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     if (is_loss(record)) entry.lost.insert(run);
     return;
   }
-  if ((record.kind->metric == "time" || record.kind->metric == "wall_ms") &&
-      record.cell->is_stated()) {
+  if (is_stated(record)) {
     entry.is_stated = true;
     table.note(kStatedNote);
   }

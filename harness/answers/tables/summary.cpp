@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "harness/answers/compare/stated.hpp"
 #include "harness/answers/tables/comparison.hpp"
 #include "harness/answers/tables/pivot.hpp"
 #include "harness/answers/tables/reasons.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "harness/answers/compare/stated.hpp"
 #include "harness/sweep/text/printable.hpp"
 #include "harness/sweep/text/wrap.hpp"
 #include "metrics/correction/optimality.hpp"
@@ -17,7 +18,7 @@ std::string mean_text(const TableCell& mean, int digits) {
   const std::string over =
       mean.possible == 0 ? "" : fmt::format(" ({} of {})", mean.records, mean.possible);
   const std::string deviation = mean.deviation ? " \u00b1 " + fixed(*mean.deviation, digits) : "";
-  const std::string stated = mean.is_stated ? " (s)" : "";
+  const std::string stated = mean.is_stated ? kStatedMark : "";
   if (mean.value && mean.is_gap) return metrics::gap_text(*mean.value) + over;
   if (mean.value) return fixed(*mean.value, digits) + deviation + stated + over;
   if (mean.status == kNoCommonRun) return "-" + over;

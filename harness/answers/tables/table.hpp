@@ -51,10 +51,6 @@ struct TerminalStyle {
 /// Status of a cell without a run that all cells compared with it have finished.
 inline constexpr const char* kNoCommonRun = "no common run";
 
-/// Explains the mark of stated times.
-inline constexpr const char* kStatedNote =
-    "(s): as the program states it, without its start; `report` has the wall time, too";
-
 /// Number of decimals of a column: four significant digits for its largest value, at most four
 /// decimals, but three significant digits below 0.001.
 int decimals(double largest);

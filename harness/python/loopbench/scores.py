@@ -214,7 +214,7 @@ def _draw_time(axes: Any, data: Data, size: Sequence[float]) -> None:
     found = _points(data)
     if not found:
         return
-    names, oracle = _names(data), data["scores"]["oracle"]
+    names, oracle, stated = _names(data), data["scores"]["oracle"], data["scores"]["stated"]
     best = sorted(front([p for p in found if not oracle[p["method"]]]), key=lambda p: p["ms"])
     _set_log(axes.xaxis, [p["ms"] for p in found], size[0])
     _set_log(axes.yaxis, [p["error"] for p in found], size[1])
@@ -229,7 +229,8 @@ def _draw_time(axes: Any, data: Data, size: Sequence[float]) -> None:
     taken: list[tuple[float, float, float]] = []
     for p in sorted(best, key=lambda each: each["error"]):
         x, y = axes.transAxes.inverted().transform(axes.transData.transform((p["ms"], p["error"])))
-        name = _short(names[int(p["method"])], int(width / font))
+        mark = " (s)" if stated[int(p["method"])] else ""
+        name = _short(names[int(p["method"])], int(width / font) - len(mark)) + mark
         length = 0.6 * font * len(name)
         is_left = x * width + font + length > width
         begin = max(0.2 * font, x * width - font - length if is_left else x * width + font)
@@ -247,7 +248,8 @@ def _draw_time(axes: Any, data: Data, size: Sequence[float]) -> None:
         place = {"transform": axes.transAxes, "ha": "left", "va": "center"}
         ground = {"facecolor": axes.get_facecolor(), "edgecolor": "none", "pad": 0.5}
         axes.text(begin / width, at / height, name, parse_math=False, bbox=ground, **place)
-    axes.set_xlabel("time of the method [ms]")
+    has_mark = any(stated[int(p["method"])] for p in found)
+    axes.set_xlabel("time [ms], (s): stated by the program" if has_mark else "time of the method [ms]")
     axes.set_ylabel(_label(data), parse_math=False)
 
 

@@ -6,7 +6,7 @@
   R.scores = raw.scores;
   R.comparisons = raw.comparisons;
   R.methods = raw.scores.methods.map((name, m) => ({
-    name, place: m, oracle: raw.scores.oracle[m],
+    name, place: m, oracle: raw.scores.oracle[m], timeMark: raw.scores.stated[m] ? " (s)" : "",
     label: raw.scores.oracle[m] ? name + " (oracle)" : name,
   }));
   R.baseline = R.methods.find((m) => m.name === raw.scores.baseline) || null;

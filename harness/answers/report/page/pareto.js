@@ -47,12 +47,12 @@
         dots.append("circle").attr("r", (p) => (front.includes(p) ? 7 : 5))
           .style("fill", (p) => (R.state.shown.has(p.m.place) ? R.color(p.m.place) : "var(--soft)"))
           .style("fill-opacity", (p) => (front.includes(p) ? 1 : 0.7)).style("stroke", "var(--card)")
-          .append("title").text((p) => `${p.m.label}: ${R.number(p.error)} ${kind.unit}, ${R.number(p.ms)} ms`);
+          .append("title").text((p) => `${p.m.label}: ${R.number(p.error)} ${kind.unit}, ${R.number(p.ms)} ms${p.m.timeMark}`);
         // Avoids overlapping names: those at the right edge are placed left, others of the same height above or below.
         const taken = [];
         const most = Math.max(12, Math.floor(x.range()[1] / 16));  // characters: about half of the width
         dots.filter(isNamed).sort((a, b) => d3.ascending(a.error, b.error)).each(function (p) {
-          const text = R.short(p.m.label, Math.min(40, most));
+          const text = R.short(p.m.label, Math.min(40, most)) + p.m.timeMark;
           const onLeft = x(p.ms) + 12 + 7 * text.length > x.range()[1];
           const from = onLeft ? x(p.ms) - 12 - 7 * text.length : x(p.ms) + 12;
           const isFree = (at) => at > 12 && at < y.range()[0] &&
@@ -65,6 +65,7 @@
         });
       },
     });
+    if (all.some((p) => p.m.timeMark)) R.nothing(host, R.scores.stated_note);
   };
 
   R.follow(() => draw(document.getElementById("pareto-all"), null));
