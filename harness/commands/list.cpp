@@ -150,9 +150,10 @@ Json to_json(const Item& item, bool is_protocol) {
 
 /// Name, kind and summary; on a terminal in lines that fit, otherwise in one.
 void print_summary(const Item& item) {
-  const std::string kind =
-      item.kind.empty() ? "" : fmt::format("[{}{}] ", item.kind, item.is_oracle ? ", oracle" : "");
-  const std::string text = kind + item.summary;
+  std::string text = item.summary;
+  if (!item.kind.empty()) {
+    text = fmt::format("[{}{}] {}", item.kind, item.is_oracle ? ", oracle" : "", item.summary);
+  }
   const std::size_t columns = standard_output_style().width;
   fmt::print("{}",
              columns == 0 ? fmt::format("{:<22} {}\n", item.name, text)

@@ -220,6 +220,11 @@ std::string text(const EvaluationResult& result,
   };
   const auto poses = [](std::size_t count) { return " (" + counted(count, "pose") + ")"; };
   const metrics::Coverage& covered = result.coverage;
+  std::string diagnosis;
+  if (detail == Detail::all) {
+    const std::size_t width = style ? std::min(columns, kWidth) : kWidth;
+    diagnosis = property("diagnosis", diagnosis_text(result.diagnosis), width);
+  }
   std::string out =
       line(
           "reference",
@@ -235,11 +240,7 @@ std::string text(const EvaluationResult& result,
       line("incomplete", result.incomplete_reason) +
       line("alignment",
            fmt::format("{}, scale {}", to_text(result.alignment.type), result.alignment.scale)) +
-      line("transform", transform_text(result.alignment)) +
-      (detail == Detail::all ? property("diagnosis",
-                                        diagnosis_text(result.diagnosis),
-                                        style ? std::min(columns, kWidth) : kWidth)
-                             : "") +
+      line("transform", transform_text(result.alignment)) + diagnosis +
       line("other body", result.other_body.empty() ? "" : result.other_body + "; see --ref-body");
   for (const Note& note : result.notes) out += line("note", text(note));
   if (detail == Detail::summary) {
