@@ -101,10 +101,12 @@ class PairDiagnosis {
     Paired rows = rows_of(false);
     bool is_changed = add(remove_frozen(rows, *estimate_, false));
     PartedPairs parted{rows, {}};
+    const double before = position_error(rows, similarity(rows));
     std::optional<InputFinding> jumps = remove_jumps(rows, false);
-    if (!agreement(thinned(rows)).is_good()) {
-      constexpr double kMostAfter = 0.5;
-      const double left = position_error(rows, similarity(rows));
+    const double left = position_error(rows, similarity(rows));
+    constexpr double kMostAfter = 0.5, kExplained = 0.25;
+    const bool is_explained = jumps && left < kExplained * before;
+    if (!is_explained && !agreement(thinned(rows)).is_good()) {
       std::optional<InputFinding> maps = join_maps(parted, *estimate_, kMostAfter);
       if (!maps && !jumps) maps = join_scales(parted, *estimate_);
       if (maps && (!jumps || position_error(parted) < kMostAfter * left)) {
