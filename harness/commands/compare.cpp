@@ -25,15 +25,16 @@ namespace loopbench::harness {
 namespace {
 
 const char* const kAssertions =
-    "Sentences of --assert, which compare values of one score of the methods A and B:\n"
+    "--assert takes one of these sentences about the values of one score of methods A and B:\n"
     "  A is below B                     significantly lower: p is at most alpha\n"
     "  A is at least X % below B        the same, and the interval of A / B ends at 1 - X % or "
     "below\n"
     "  A is not above B                 not significantly higher\n"
     "  A is at most X % above B         the interval of A / B ends at 1 + X % or below\n"
     "  A is not shown to differ from B  neither significantly lower nor higher\n"
-    "p and interval are those that `--baseline B` prints. Where too few groups can show nothing, "
-    "`not above` and `not shown to differ` hold, too.";
+    "p and the interval are those that `--baseline B` prints. With too few groups to show "
+    "anything, "
+    "`not above` and `not shown to differ` also hold.";
 
 struct CompareArguments {
   std::vector<std::filesystem::path> stores;
@@ -119,11 +120,11 @@ void add_compare(CLI::App& app, int& exit_code) {
   add(command,
       "--metric METRIC",
       a.metric,
-      "Label or name of a metric, or a score: ate, error x, cpu; ate unless --where selects one");
+      "Metric or score, by label or name: ate, error x, cpu; ate unless --where selects one");
   add(command,
       "--assert SENTENCE",
       a.assertions,
-      "Sentence that the comparison must show, otherwise exit 1; see below")
+      "Sentence that the comparison must show; otherwise exit with 1. See below")
       ->allow_extra_args(false);
   add(command,
       "--value",
@@ -135,9 +136,8 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   const std::map<std::string, Over> units{{"groups", Over::groups}, {"sequences", Over::sequences}};
   command
-      .add_option("--over",
-                  a.options.over,
-                  "Unit of independent observations: groups of dependent runs, or sequences")
+      .add_option(
+          "--over", a.options.over, "Unit of observation: groups of dependent runs, or sequences")
       ->transform(one_of("observation", units));
   const auto share = [&](const char* name, double& value, const char* help) {
     command.add_option(name, value, help)->check(number_between(0.0, 0.5))->capture_default_str();
@@ -148,7 +148,7 @@ void add_compare(CLI::App& app, int& exit_code) {
         "Relative difference below which methods share the first place [-]");
   command.add_flag("--paired",
                    a.options.paired,
-                   "Also pair runs of evaluated files, by their names; those of sweeps always are");
+                   "Pair runs of evaluated files by name, too; runs of sweeps are always paired");
   add(command, "--where", a.where, "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
   declare(command, a.output);
   command.footer(kAssertions);

@@ -48,7 +48,7 @@ TEST(Failures, AreCountedBesideTheNumbers) {
     EXPECT_FALSE(good->beats_baseline);  // it is shown to fail more often
     EXPECT_TRUE(has_note(c, "no value on 10 of 20 runs (")) << status;
     EXPECT_TRUE(
-        sentence(c).ends_with(" on 10 of 20 runs; good fails on 10 (shown to be more often)"))
+        sentence(c).ends_with(" on 10 of 20 runs; good fails on 10 (significantly more often)"))
         << sentence(c);
   }
 }
@@ -63,8 +63,9 @@ TEST(Failures, AreNoGainOfTheMethodThatFails) {
   const Comparison c = compared(records, {.baseline = "raw"});
   EXPECT_EQ(c.methods[0].method, "raw");
   EXPECT_EQ(sentence(c),
-            "the baseline raw is best: same is 0.0 % below raw on 4 of 16 runs; same fails on 12 "
-            "(shown to be more often)");
+            "the baseline raw is best: same is 0.0 % below raw (too few runs for a test) on 4 of "
+            "16 runs; same fails on 12 "
+            "(significantly more often)");
 }
 
 TEST(Failures, OfRunsThatAnotherSolvesLeaveNoMethodFirstAlone) {
@@ -79,7 +80,8 @@ TEST(Failures, OfRunsThatAnotherSolvesLeaveNoMethodFirstAlone) {
   EXPECT_FALSE(c.is_best) << sentence(c);
   EXPECT_TRUE(sentence(c).starts_with("no method is best: good is 5")) << sentence(c);
   EXPECT_TRUE(sentence(c).ends_with(" on 19 of 20 runs; good fails on 1")) << sentence(c);
-  EXPECT_TRUE(has_note(c, "no value on 1 of 20 runs (failed 1), numbers are of runs that both"));
+  EXPECT_TRUE(
+      has_note(c, "no value on 1 of 20 runs (failed 1); ratios are over the runs that both"));
 }
 
 TEST(Failures, AreNotRunsThatWereNeverMade) {
@@ -173,7 +175,7 @@ TEST(Groups, WithOneFailedRunEachCountAsTheirMedian) {
   const Comparison c = compared(records, {.baseline = "raw"});
   EXPECT_EQ(sentence(c),
             "no method beats raw: dual is 50 % below raw (95 %: 50 to 50) on 152 of 160 runs; dual "
-            "fails on 8 (shown to be more often)");
+            "fails on 8 (significantly more often)");
   EXPECT_DOUBLE_EQ(c.methods[0].ratio->typical.estimate, 0.5);
 }
 

@@ -39,6 +39,14 @@ std::size_t number_of(const std::string& method) {
   return static_cast<std::size_t>(std::stoi(method.substr(1)));
 }
 
+/// Whether a method is said to fail more often than the baseline and does not.
+bool has_false_failures(const Comparison& c, const Truth& truth) {
+  const double baseline = failures_of(truth, number_of(c.options.baseline));
+  return std::ranges::any_of(c.methods, [&](const MethodVerdict& m) {
+    return m.fails_more && failures_of(truth, number_of(m.method)) <= baseline;
+  });
+}
+
 /// Whether a method is claimed to differ from the baseline in a direction that does not hold.
 bool has_false_claim(const Comparison& c, const Truth& truth) {
   const double baseline = effect_of(truth, number_of(c.options.baseline));
@@ -133,17 +141,21 @@ ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std:
     out.best += is_false ? 1.0 : 0.0;
     out.found += c.is_best && !is_false && best == 1 ? 1.0 : 0.0;
     out.baseline += has_false_claim(c, truth) ? 1.0 : 0.0;
+    out.failures += has_false_failures(c, truth) ? 1.0 : 0.0;
     out.sequences += is_fast && !truth.sequences.empty() && has_false_clause(c, truth) ? 1.0 : 0.0;
     out.contradicted += is_contradictory(c) ? 1.0 : 0.0;
     if (!has_intervals(c)) continue;
     ++with_intervals;
+    out.intervals += 1.0;
     out.missed += has_missed(c, truth) ? 1.0 : 0.0;
   }
   out.missed *= static_cast<double>(repeats) / std::max(1, with_intervals);
   for (double* rate : {&out.baseline,
                        &out.best,
                        &out.sequences,
+                       &out.failures,
                        &out.missed,
+                       &out.intervals,
                        &out.contradicted,
                        &out.claimed,
                        &out.found,

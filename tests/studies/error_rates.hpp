@@ -15,13 +15,15 @@ struct ErrorRates {
   double baseline = 0.0;   ///< a method is wrongly better or worse than the baseline
   double best = 0.0;       ///< a truly best method is marked as worse, so also any wrong best
   double sequences = 0.0;  ///< a method is wrongly better or worse than the baseline on a sequence
+  double failures = 0.0;   ///< a method is wrongly said to fail more often than the baseline
   double missed = 0.0;     ///< an interval does not hold the true ratio, of those with intervals
+  double intervals = 0.0;  ///< comparisons with intervals of all methods
   double contradicted = 0.0;  ///< two statements contradict each other
   double claimed = 0.0;       ///< method 1 is shown to be below the baseline
   double found = 0.0;         ///< the truly best method is reported as best
   double holm = 0.0;          ///< it beats each rival with Holm's correction over the rivals
 
-  double largest() const { return std::max({baseline, best, sequences, missed}); }
+  double largest() const { return std::max({baseline, best, sequences, failures, missed}); }
 };
 
 /// Rates over `repeats` draws. Equal effects are true ties: none of them is best. The effect of a

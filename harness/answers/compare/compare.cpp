@@ -152,8 +152,10 @@ void add_baseline(MethodVerdict& method,
   const double p = pair.has_difference() ? test.p() : 1.0;
   const bool is_equal_share = method.level == level_of_one(alpha, of.tests);
   method.p = is_equal_share ? corrected(p, of.tests) : std::min(1.0, p * alpha / method.level);
-  const bool is_shown = pair.failure_p() <= alpha;
-  method.fails_more = is_shown && pair.first_fails_more();
+  const double failure_p = pair.failure_p();
+  method.fails_more =
+      failure_p <= level_of_one(alpha, of.tests) && pair.first_fails_more();  // a claim
+  const bool is_shown = failure_p <= alpha;  // enough to forbid one
   if (p > method.level) return;
   const bool is_ahead = test.typical() < 0.0;
   if (is_shown && pair.first_fails_more() == is_ahead) return;

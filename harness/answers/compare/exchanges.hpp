@@ -14,6 +14,13 @@ namespace loopbench::harness {
 /// All values of one independent term of a sum, equally probable.
 using Term = std::vector<double>;
 
+/// Logarithm of the number of ways to choose the first of two samples of these sizes.
+inline double log2_of_choices(std::size_t first, std::size_t second) {
+  const auto a = static_cast<double>(first);
+  const auto b = static_cast<double>(second);
+  return (std::lgamma(a + b + 1.0) - std::lgamma(a + 1.0) - std::lgamma(b + 1.0)) / std::log(2.0);
+}
+
 /// All sums of one value of each term, in any order.
 inline std::vector<double> sums_of(std::span<const Term> terms) {
   std::vector<double> out{0.0};

@@ -28,12 +28,6 @@ constexpr double kMovedErrors = 4.0;
 /// The distribution of more signs is approximated.
 constexpr std::size_t kMostSigns = 16;
 
-double log2_of_choices(std::size_t first, std::size_t second) {
-  const auto a = static_cast<double>(first);
-  const auto b = static_cast<double>(second);
-  return (std::lgamma(a + b + 1.0) - std::lgamma(a + 1.0) - std::lgamma(b + 1.0)) / std::log(2.0);
-}
-
 /// Appends the sizes that are not zero.
 void add_sizes(const std::vector<double>& values, std::vector<double>& out) {
   for (const double value : values) {
@@ -45,8 +39,9 @@ double median_size(const std::vector<double>& sizes) {
   return sizes.empty() ? 0.0 : metrics::median(sizes);
 }
 
-/// Clips the values at `limit`, and divides them by the share that is not clipped.
-void clip_values(Stratum& stratum, double limit) {
+/// Clips the values at `limit`, and divides them by the share that is not clipped, which it
+/// returns.
+double clip_values(Stratum& stratum, double limit) {
   const auto is_within = [&](double value) { return std::abs(value) <= limit; };
   const auto within = std::ranges::count_if(stratum.first, is_within) +
                       std::ranges::count_if(stratum.second, is_within);
@@ -55,10 +50,16 @@ void clip_values(Stratum& stratum, double limit) {
   for (auto* values : {&stratum.first, &stratum.second}) {
     for (double& value : *values) value = std::clamp(value, -limit, limit) / share;
   }
+  return share;
 }
 
+struct Scores {
+  std::vector<Stratum> strata;
+  std::vector<double> unclipped;  ///< share of the values of each
+};
+
 /// The strata after subtracting `shift`, centred (independent samples) and clipped.
-std::vector<Stratum> scores_of(std::vector<Stratum> strata, double shift) {
+Scores scores_of(std::vector<Stratum> strata, double shift) {
   std::vector<std::vector<double>> sizes(strata.size());
   std::vector<double> all_sizes;
   for (std::size_t s = 0; s < strata.size(); ++s) {
@@ -77,13 +78,15 @@ std::vector<Stratum> scores_of(std::vector<Stratum> strata, double shift) {
     all_sizes.insert(all_sizes.end(), sizes[s].begin(), sizes[s].end());
   }
   const double typical = median_size(all_sizes);
+  std::vector<double> unclipped;
   for (std::size_t s = 0; s < strata.size(); ++s) {
     const auto count = static_cast<double>(strata[s].first.size() + strata[s].second.size());
     const double own = median_size(sizes[s]);
     const double factor = strata[s].is_paired() ? kClip : kClipOfSamples;
-    clip_values(strata[s], factor * (count * own + kShrunk * typical) / (count + kShrunk));
+    const double limit = factor * (count * own + kShrunk * typical) / (count + kShrunk);
+    unclipped.push_back(clip_values(strata[s], limit));
   }
-  return strata;
+  return {std::move(strata), std::move(unclipped)};
 }
 
 double score_difference(const Stratum& scores) {
@@ -147,22 +150,27 @@ double tail_of_samples(const std::vector<Stratum>& scores, double least) {
   return tail_of_terms(std::move(terms), least);
 }
 
-/// Variance of a mean, and the square of it over the degrees of freedom plus two.
-void add_variance(const std::vector<double>& values, double& variance, double& squares) {
+/// Variance of a mean, and the square of it over the degrees of freedom plus two; clipped values
+/// have none (Tukey and McLaughlin, 1963).
+void add_variance(const std::vector<double>& values,
+                  double unclipped,
+                  double& variance,
+                  double& squares) {
   const auto count = static_cast<double>(values.size());
   const bool is_one = values.size() == 1;
   const double own =
       is_one ? values[0] * values[0] : std::pow(metrics::sample_deviation(values), 2) / count;
   variance += own;
-  squares += own * own / (is_one ? 3.0 : count + 1.0);
+  squares += own * own / (is_one ? 3.0 : unclipped * count + 1.0);
 }
 
 /// Student's test with unequal variances; the degrees of freedom are nearly unbiased (Welch, 1947).
-double student_p(const std::vector<Stratum>& scores, double sum) {
+double student_p(const Scores& scores, double sum) {
   double variance = 0.0, squares = 0.0;
-  for (const Stratum& one : scores) {
-    add_variance(one.first, variance, squares);
-    if (!one.is_paired()) add_variance(one.second, variance, squares);
+  for (std::size_t s = 0; s < scores.strata.size(); ++s) {
+    const Stratum& one = scores.strata[s];
+    add_variance(one.first, scores.unclipped[s], variance, squares);
+    if (!one.is_paired()) add_variance(one.second, scores.unclipped[s], variance, squares);
   }
   if (variance == 0.0) return 0.0;
   const double degrees = std::max(1.0, variance * variance / squares - 2.0);
@@ -200,7 +208,8 @@ double typical_of(const Stratum& stratum) {
 }
 
 Exchanged exchanged(std::vector<Stratum> strata, double shift) {
-  std::vector<Stratum> scores = scores_of(std::move(strata), shift);
+  Scores found = scores_of(std::move(strata), shift);
+  std::vector<Stratum>& scores = found.strata;
   Exchanged out;
   double size = 0.0;
   for (const Stratum& one : scores) {
@@ -218,7 +227,7 @@ Exchanged exchanged(std::vector<Stratum> strata, double shift) {
     }
     out.p = 2.0 * tail_of_samples(scores, least);
   }
-  if (scores.size() > 1) out.p = std::max(out.p, student_p(scores, out.sum));
+  if (scores.size() > 1) out.p = std::max(out.p, student_p(found, out.sum));
   out.p = std::min(1.0, out.p);
   return out;
 }
@@ -271,7 +280,8 @@ double RandomizationTest::end(double level, double outward) const {
     const double middle = 0.5 * (inside + outside);
     (p(middle) > level ? inside : outside) = middle;
   }
-  return inside;
+  // With ties, the end is often a value itself, which is inside: rounding must not exclude it.
+  return inside == 0.0 || outside == 0.0 ? inside : outside;
 }
 
 std::optional<Interval> RandomizationTest::interval(double level) const {

@@ -23,7 +23,7 @@ void add_gaps(const Comparison& c, Lines& out) {
             ? fmt::format("no value on {} of {} runs ({})", gap.missing, c.possible, gap.why)
             : fmt::format("not ranked, no value ({})", gap.why);
     if (method != nullptr && method->fails > 0)
-      what += ", numbers are of runs that both methods solved";
+      what += "; ratios are over the runs that both methods solved";
     const auto same = std::ranges::find(gaps, what, &std::pair<std::string, Lines>::first);
     (same == gaps.end() ? gaps.emplace_back(what, Lines()) : *same).second.push_back(gap.method);
   }
@@ -72,8 +72,8 @@ Lines limitations(const Comparison& c) {
   add_gaps(c, out);
   const std::string coverage = coverage_text(c, false);
   if (!coverage.empty()) out.push_back(coverage + "; errors are over the parts that are covered");
-  list("not ranked, use the reference (oracle)", c.oracles);
-  list("closures measured in the reference or selected by it (oracle)", c.oracle_closures);
+  list("not ranked because they use the reference (oracle)", c.oracles);
+  list("closures measured in the reference, or selected by it (oracle)", c.oracle_closures);
   if (c.runs < c.possible) {
     out.push_back(
         fmt::format("{} of {} possible runs: {}",
@@ -87,7 +87,7 @@ Lines limitations(const Comparison& c) {
                               c.copies == 1 ? " repeats" : "s repeat",
                               c.copies == 1 ? "is" : "are"));
   }
-  list("not deterministic, values differ on equal data", c.unstable);
+  list("not deterministic: values differ on equal data", c.unstable);
   list("not independent, one recording (equal reference or group)", c.same_recordings);
   return out;
 }
@@ -96,8 +96,8 @@ Lines remarks(const Comparison& c) {
   Lines out = limitations(c);
   if (c.methods.empty()) return out;
   out.push_back(fmt::format(
-      "change, ratio: typical {} / {} (Hodges-Lehmann; geometric mean over sequences of several "
-      "groups)",
+      "change, ratio: typical {} / {} (Hodges-Lehmann estimate; geometric mean over sequences with "
+      "several groups)",
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
       baseline_name(c)));
@@ -108,7 +108,7 @@ Lines remarks(const Comparison& c) {
       c.is_ratio ? "randomization test of log ratios" : "randomization test of differences",
       baseline_name(c),
       counted(c.tests, "test")));
-  if (!c.is_ratio) out.push_back("no ratio of methods with negative values");
+  if (!c.is_ratio) out.push_back("no ratio is given for methods with negative values");
   return out;
 }
 

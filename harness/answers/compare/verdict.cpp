@@ -33,7 +33,8 @@ const char* observed_unit(const Comparison& c) {
 
 /// Why the difference of a method to the baseline is no number.
 std::string without_number(const Comparison& c, const MethodVerdict& m) {
-  if (m.wins + m.losses + m.ties == 0) return "without a run that " + baseline_name(c) + " solved";
+  if (m.wins + m.losses + m.ties == 0)
+    return "not comparable with " + baseline_name(c) + " (no run that both solved)";
   return fmt::format("{} than {} on {} of {} {}",
                      m.wins >= m.losses ? "better" : "worse",
                      baseline_name(c),
@@ -51,6 +52,14 @@ std::pair<double, double> ordered(const Change& change, bool is_below) {
 std::string range_text(const Change& change, double sign) {
   const auto [first, last] = ordered(change, sign < 0.0);
   return percent_text(sign * first) + " to " + percent_text(sign * last);
+}
+
+/// Why a method has a change without an interval, where others can have one.
+std::string no_interval(const Comparison& c, const VerdictGroup& of) {
+  const MethodVerdict& m = *c.find(of.methods.front());
+  const bool are_few = !c.is_independent && m.wins + m.losses + m.ties < c.groups_needed;
+  return are_few ? fmt::format(" (too few {} for a test)", observed_unit(c))
+                 : fmt::format(" ({:g} %: unbounded)", 100.0 * (1.0 - c.options.alpha));
 }
 
 /// "37 to 44 % below raw (95 %: 30 to 51)"; of a score with a target "closer to 1 than raw".
@@ -76,7 +85,7 @@ std::string change_text(const Comparison& c, const VerdictGroup& of) {
     out += " % " + side(is_below);
   }
   out += " " + baseline_name(c);
-  if (!of.interval) return out;
+  if (!of.interval) return out + (c.can_show && of.methods.size() == 1 ? no_interval(c, of) : "");
   return out + fmt::format(" ({:g} %: {})",
                            100.0 * (1.0 - c.options.alpha),
                            range_text(*of.interval, sign));
@@ -91,7 +100,7 @@ std::string failures_text(const Comparison& c, const std::vector<const MethodVer
   for (const MethodVerdict* m : all) {
     if (m->fails == 0) continue;
     out += fmt::format("{}{} fails on {}", out.empty() ? "; " : ", ", shown_name(*m), m->fails);
-    if (m->fails_more) out += " (shown to be more often)";
+    if (m->fails_more) out += " (significantly more often)";
   }
   if (out.empty()) return "";
   if (members.size() > 1 || c.is_independent) return out + fmt::format(" of {} runs", c.runs);
@@ -119,13 +128,14 @@ std::string why_no_comparison(const Comparison& c) {
 /// "6 runs of 1 sequence cannot decide among 4 methods: 7 would".
 std::string cannot_decide_text(const Comparison& c) {
   const bool are_common = c.common == c.groups || c.is_independent;
-  return fmt::format("{}{} cannot decide {} {} methods: {}{} would",
-                     unit_text(c),
-                     are_common ? "" : fmt::format(", of which two methods solved {},", c.common),
-                     c.tests == 1 ? "between" : "among",
-                     c.tests + 1,
-                     c.groups_needed,
-                     c.is_independent ? " of each method and sequence" : "");
+  return fmt::format(
+      "{}{} cannot decide {} {} methods: {}{} would",
+      unit_text(c),
+      are_common ? "" : fmt::format(", of which two methods solved at most {},", c.common),
+      c.tests == 1 ? "between" : "among",
+      c.tests + 1,
+      c.groups_needed,
+      c.is_independent ? " of each method and sequence" : "");
 }
 
 /// "open 0.064 m, other 0.121 m (+91 %). One recording; a test needs 6".

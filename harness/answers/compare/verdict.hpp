@@ -33,6 +33,7 @@ struct Verdict {
   std::vector<VerdictGroup> groups;    ///< the first place first; empty for one run
   bool has_places = false;             ///< false: too few runs to show anything
   std::vector<std::string> cautions;   ///< methods that are worse than the baseline somewhere
+  std::vector<std::string> cautioned;  ///< sequences that they name: their columns are shown first
   std::string legend;                  ///< what the numbers are, and for what claims hold
   double level = 95.0;                 ///< of the intervals [%]
 
@@ -52,16 +53,19 @@ VerdictGroup group_of(const std::vector<const MethodVerdict*>& members,
                       const std::vector<std::string>& sequences,
                       const std::string& baseline);
 
-/// The groups: the first place (if any method is worse), then methods whose changes, over all and
-/// on each sequence, differ by at most a point, or more if there would be more than five groups.
-/// Without the baseline, unless it shares the first place.
+/// The groups: the first place, then methods whose changes, over all and on each sequence, differ
+/// by at most a point, or more if there would be more than five groups. If no method is worse, each
+/// one is a group. Without the baseline, unless it shares the first place with others. Programs and
+/// plugins are marked.
 std::vector<VerdictGroup> groups_of(const Comparison& comparison,
                                     const std::vector<std::string>& sequences);
 
-/// Methods that are significantly worse than the baseline on a sequence, or in rotation: the three
-/// worst, one line each, and the number of others.
-std::vector<std::string> cautions_of(const Comparison& comparison,
-                                     const std::vector<Comparison>& all);
+/// Sets the cautions and their sequences: methods that are significantly worse than the baseline on
+/// a sequence, or in rotation, then those of the first place that are 50 % worse on one without
+/// being shown to be. The three worst, one line each, and the number of others.
+void add_cautions(Verdict& verdict,
+                  const Comparison& comparison,
+                  const std::vector<Comparison>& all);
 
 /// The sentence without the score: "dual is best, 14 % below raw (95 %: 11 to 16)".
 std::string sentence(const Comparison& comparison);

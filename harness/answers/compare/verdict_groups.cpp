@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "harness/answers/compare/stated.hpp"
 #include "harness/answers/compare/verdict.hpp"
+#include "methods/method.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -33,6 +35,18 @@ bool are_near(const VerdictGroup& a, const VerdictGroup& b, double points) {
   return out;
 }
 
+/// Whether it is the user's own: a stage runs a program, or is not one of ours, but a plugin's.
+bool is_own(const MethodVerdict& m) {
+  static const std::set<std::string> kOurs = [] {
+    std::set<std::string> names{""};
+    for (const methods::MethodEntry& entry : methods::methods()) names.insert(entry.name);
+    return names;
+  }();
+  const auto is_ours = [](const SharedText& stage) { return kOurs.contains(stage.text()); };
+  return !m.parts.program.empty() || !is_ours(m.parts.replay) || !is_ours(m.parts.corrector) ||
+         !is_ours(m.parts.smoother);
+}
+
 /// The first place, and neighbours that differ by at most `points` from all of their group.
 std::vector<VerdictGroup> groups_within(const Comparison& c,
                                         const Names& sequences,
@@ -42,28 +56,37 @@ std::vector<VerdictGroup> groups_within(const Comparison& c,
   };
   std::vector<VerdictGroup> out;
   std::vector<const MethodVerdict*> members;  // of the last group
-  const bool has_worse = std::ranges::any_of(c.methods, &MethodVerdict::is_worse);
   for (const MethodVerdict& m : c.methods) {
-    if ((m.is_worse || !has_worse) && m.method == c.options.baseline) continue;
+    if (m.is_worse && m.method == c.options.baseline) continue;
     const VerdictGroup own = as_group({&m});
     const bool joins = !out.empty() && out.back().is_first == own.is_first &&
-                       ((own.is_first && has_worse) || are_near(out.back(), own, points));
+                       (own.is_first || are_near(out.back(), own, points));
     if (!joins) {
       members.clear();
       out.emplace_back();
     }
     members.push_back(&m);
     out.back() = as_group(members);
-    const auto is_own = [](const MethodVerdict* each) { return !each->parts.program.empty(); };
-    if (!has_worse && std::ranges::any_of(members, is_own)) out.back().name += " (own program)";
   }
   return out;
 }
 
-/// A method that is significantly worse than the baseline.
+/// One for each method that is compared with the baseline.
+std::vector<VerdictGroup> single_groups(const Comparison& c, const Names& sequences) {
+  std::vector<VerdictGroup> out;
+  for (const MethodVerdict& m : c.methods) {
+    if (m.method != c.options.baseline)
+      out.push_back(group_of({&m}, sequences, c.options.baseline));
+  }
+  return out;
+}
+
+/// A method that is worse than the baseline.
 struct Caution {
+  bool is_clear = true;  ///< significantly
   double log_ratio = 0.0;
   std::string text;
+  std::string sequence = {};  ///< empty: over all
 };
 
 bool is_worse_ratio(double ratio, const Comparison& c) {
@@ -94,25 +117,51 @@ std::string best_there(const Comparison& c, const std::string& sequence) {
                          : ", " + shown_name(*best) + " " + percent_of_ratio(found) + " better";
 }
 
+/// The sequence on which a method is worst, significantly or not; null if it is not worse on any.
+const SequenceRatio* worst_sequence(const Comparison& c, const MethodVerdict& m, bool is_clear) {
+  const SequenceRatio* worst = nullptr;
+  for (const SequenceRatio& one : m.ratio->by_sequence) {
+    if (one.is_clear != is_clear || !is_worse_ratio(one.ratio, c)) continue;
+    if (!worst || is_worse_ratio(one.ratio / worst->ratio, c)) worst = &one;
+  }
+  return worst;
+}
+
 /// At most one for each method: the worst sequence.
-void add_cautions(std::vector<Caution>& out, const Comparison& c, const std::string& axis) {
+void add_clear(std::vector<Caution>& out, const Comparison& c, const std::string& axis) {
   for (const MethodVerdict& m : c.methods) {
     if (!m.ratio) continue;
-    const SequenceRatio* worst = nullptr;
-    std::size_t sequences = 0;
-    for (const SequenceRatio& one : m.ratio->by_sequence) {
-      if (!one.is_clear || !is_worse_ratio(one.ratio, c)) continue;
-      ++sequences;
-      if (!worst || is_worse_ratio(one.ratio / worst->ratio, c)) worst = &one;
-    }
+    const SequenceRatio* const worst = worst_sequence(c, m, true);
     const double ratio = worst != nullptr ? worst->ratio : m.ratio->typical.estimate;
     // That a method is worse over all is in the table of groups, but not for the rotation.
     if (!worst && (axis.empty() || !m.is_beaten)) continue;
-    std::string text =
+    Caution& own = out.emplace_back();
+    own.log_ratio = std::abs(std::log(ratio));
+    own.text =
         axis + shown_name(m) + " is " + percent_of_ratio(ratio) + " worse than " + baseline_name(c);
-    if (worst != nullptr) text += " on " + worst->sequence + best_there(c, worst->sequence);
-    if (sequences > 1) text += fmt::format("; worse on {} sequences", sequences);
-    out.push_back({std::abs(std::log(ratio)), text});
+    if (worst == nullptr) continue;
+    own.text += " on " + worst->sequence + best_there(c, worst->sequence);
+    own.sequence = axis.empty() ? worst->sequence : "";
+    const auto sequences = std::ranges::count_if(m.ratio->by_sequence, [&](const auto& one) {
+      return one.is_clear && is_worse_ratio(one.ratio, c);
+    });
+    if (sequences > 1) own.text += fmt::format("; worse on {} sequences", sequences);
+  }
+}
+
+/// Methods of the first place that are far worse on a sequence, which too few runs show.
+void add_unclear(std::vector<Caution>& out, const Comparison& c) {
+  constexpr double kFar = 1.5;
+  if (std::ranges::none_of(c.methods, &MethodVerdict::is_worse)) return;
+  for (const MethodVerdict& m : c.methods) {
+    if (!m.ratio || m.is_worse || worst_sequence(c, m, true) != nullptr) continue;
+    const SequenceRatio* const worst = worst_sequence(c, m, false);
+    if (worst == nullptr || std::abs(std::log(worst->ratio)) < std::log(kFar)) continue;
+    out.push_back({false,
+                   std::abs(std::log(worst->ratio)),
+                   shown_name(m) + " is " + percent_of_ratio(worst->ratio) + " worse than " +
+                       baseline_name(c) + " on " + worst->sequence + " (not significant)",
+                   worst->sequence});
   }
 }
 
@@ -124,6 +173,19 @@ bool is_named_by_stages(const MethodVerdict& m) {
   const auto& [replay, corrector, smoother, program] = m.parts;
   return replay.empty() && !corrector.empty() && !smoother.empty() &&
          m.method == corrector + " + " + smoother;
+}
+
+/// The names of a group, the user's own methods first.
+std::string marked_names(std::vector<const MethodVerdict*> members) {
+  std::ranges::stable_sort(members, {}, [](const MethodVerdict* m) { return !is_own(*m); });
+  std::vector<MethodVerdict> marked;
+  for (const MethodVerdict* m : members) {
+    marked.push_back(*m);
+    if (is_own(*m)) marked.back().method += " (own)";
+  }
+  std::vector<const MethodVerdict*> all;
+  for (const MethodVerdict& m : marked) all.push_back(&m);
+  return short_names(all, ", ");
 }
 
 }  // namespace
@@ -159,7 +221,7 @@ VerdictGroup group_of(const std::vector<const MethodVerdict*>& members,
     }
   }
   if (!has_interval) out.interval.reset();
-  out.name = short_names(members, ", ");
+  out.name = marked_names(members);
   return out;
 }
 
@@ -187,6 +249,7 @@ std::string short_names(const std::vector<const MethodVerdict*>& methods,
 std::vector<VerdictGroup> groups_of(const Comparison& c, const Names& sequences) {
   constexpr std::size_t kMostGroups = 5;
   double points = 1.0;
+  if (std::ranges::none_of(c.methods, &MethodVerdict::is_worse)) return single_groups(c, sequences);
   std::vector<VerdictGroup> out = groups_within(c, sequences, points);
   for (int step = 0; step < 12 && out.size() > kMostGroups; ++step) {
     points *= 2.0;
@@ -195,24 +258,29 @@ std::vector<VerdictGroup> groups_of(const Comparison& c, const Names& sequences)
   return out;
 }
 
-std::vector<std::string> cautions_of(const Comparison& c, const std::vector<Comparison>& all) {
+void add_cautions(Verdict& verdict, const Comparison& c, const std::vector<Comparison>& all) {
   constexpr std::size_t kMost = 3;
   std::vector<Caution> found;
-  add_cautions(found, c, "");
+  add_clear(found, c, "");
   for (const Comparison& other : all) {
     const bool is_rotation = other.kind.unit == "deg" && c.kind.unit != "deg" &&
                              other.kind.metric_label() == c.kind.metric_label() &&
                              other.kind.times == c.kind.times && other.kind.axis == c.kind.axis &&
                              other.kind.protocol == c.kind.protocol;
-    if (is_rotation) add_cautions(found, other, "rotation: ");
+    if (is_rotation) add_clear(found, other, "rotation: ");
   }
-  std::ranges::stable_sort(found, std::greater(), &Caution::log_ratio);
-  Names out;
+  add_unclear(found, c);
+  std::ranges::stable_sort(found, std::greater(), [](const Caution& one) {
+    return std::pair(one.is_clear, one.log_ratio);
+  });
   for (const Caution& each : found) {
-    if (out.size() < kMost) out.push_back(each.text);
+    if (verdict.cautions.size() == kMost) {
+      verdict.cautions.push_back(fmt::format("{} more cautions", found.size() - kMost));
+      break;
+    }
+    verdict.cautions.push_back(each.text);
+    if (!each.sequence.empty()) verdict.cautioned.push_back(each.sequence);
   }
-  if (found.size() > kMost) out.push_back(fmt::format("{} more cautions", found.size() - kMost));
-  return out;
 }
 
 }  // namespace loopbench::harness

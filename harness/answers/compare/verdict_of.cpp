@@ -18,16 +18,16 @@ std::string legend_of(const Comparison& c, const Verdict& v) {
   if (c.kind.better == metrics::Better::target) {
     out += fmt::format("of |value - {:g}| ", c.kind.target);
   }
-  out += "to " + baseline_name(c) + " [%], typical over " + unit_text(c);
+  out += "relative to " + baseline_name(c) + " [%], typical over " + unit_text(c);
   if (std::ranges::any_of(
           c.methods, [](const MethodVerdict& m) { return m.ratio && m.ratio->is_of_sequences; }))
     out += " (mean of the sequences)";
   if (std::ranges::any_of(c.methods, [](const MethodVerdict& each) { return each.fails > 0; }))
-    out += ", those that both methods solved";
-  if (c.can_show) out += fmt::format("; {:g} %: interval, for all methods together", v.level);
+    out += ", only those that both methods solved";
+  if (c.can_show) out += fmt::format("; {:g} %: simultaneous interval over all methods", v.level);
   const auto is_several = [](const VerdictGroup& g) { return g.methods.size() > 1; };
   if (v.has_table() && std::ranges::any_of(v.groups, is_several)) {
-    out += "; other ranges: methods of a group differ";
+    out += "; other ranges: spread within a group";
   }
   if (v.groups.size() > 1 && c.can_show) {
     out += fmt::format("; =: shares first place, >: shown to be worse, typically by {:g} % or more",
@@ -37,15 +37,15 @@ std::string legend_of(const Comparison& c, const Verdict& v) {
     out += std::string("; ") + kStatedNote;
   if (c.kind.times == "dense") out += "; dense: also between keyframes";
   if (c.is_independent) {
-    out += "; runs of a sequence are independent (compare --paired pairs equal names)";
+    out += "; runs of a sequence count as independent (compare --paired pairs equal names)";
   } else if (c.sequences < c.groups) {
-    out += "; other sequences: --over sequences";
+    out += "; for claims about other sequences: --over sequences";
   }
   return out;
 }
 
-/// The sequences with a change, at most so many: those with the largest.
-Names sequences_with_changes(const Comparison& c, std::size_t most) {
+/// The sequences with a change, at most so many: those of cautions, then those with the largest.
+Names sequences_with_changes(const Comparison& c, const Names& cautioned, std::size_t most) {
   Names out;
   std::map<std::string, double> largest;
   for (const MethodVerdict& m : c.methods) {
@@ -57,7 +57,9 @@ Names sequences_with_changes(const Comparison& c, std::size_t most) {
     }
   }
   while (out.size() > most) {
-    out.erase(std::ranges::min_element(out, {}, [&](const auto& name) { return largest[name]; }));
+    out.erase(std::ranges::min_element(out, {}, [&](const auto& name) {
+      return std::pair(std::ranges::count(cautioned, name) > 0, largest[name]);
+    }));
   }
   return out;
 }
@@ -96,9 +98,9 @@ Verdict verdict_of(const Comparison& c, const std::vector<Comparison>& all) {
   Verdict out;
   out.sentence = short_title(c) + ": " + sentence(c) + ".";
   if (c.methods.empty()) return out;
-  out.cautions = cautions_of(c, all);
+  add_cautions(out, c, all);
   if (c.groups < 2) return out;
-  out.sequences = sequences_with_changes(c, kMostSequences);
+  out.sequences = sequences_with_changes(c, out.cautioned, kMostSequences);
   out.has_places = c.can_show;
   out.groups = groups_of(c, out.sequences);
   out.level = 100.0 * (1.0 - c.options.alpha);

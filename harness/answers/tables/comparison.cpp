@@ -50,7 +50,8 @@ double largest_change(const Verdict& verdict, std::size_t sequence) {
   return out;
 }
 
-/// Leaves as many sequences as fit into `most` characters: those with the largest changes.
+/// Leaves as many sequences as fit into `most` characters, at least one: those of cautions, then
+/// those with the largest changes.
 void drop_sequences(Table& table, const Verdict& verdict, std::size_t most) {
   const auto line_width = [&] {
     std::size_t out = 1;
@@ -61,11 +62,13 @@ void drop_sequences(Table& table, const Verdict& verdict, std::size_t most) {
     }
     return out;
   };
-  std::vector<double> changes;
-  for (std::size_t s = 0; s < verdict.sequences.size(); ++s)
-    changes.push_back(largest_change(verdict, s));
+  std::vector<std::pair<bool, double>> changes;
+  for (std::size_t s = 0; s < verdict.sequences.size(); ++s) {
+    const bool is_cautioned = std::ranges::count(verdict.cautioned, verdict.sequences[s]) > 0;
+    changes.emplace_back(is_cautioned, largest_change(verdict, s));
+  }
   std::size_t dropped = 0;
-  for (; line_width() > most && !changes.empty(); ++dropped) {
+  for (; line_width() > most && changes.size() > 1; ++dropped) {
     const auto least = std::ranges::min_element(changes.rbegin(), changes.rend()).base() - 1;
     const auto column = 3 + (least - changes.begin());
     changes.erase(least);

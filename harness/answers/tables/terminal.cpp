@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "harness/answers/tables/table.hpp"
 #include "harness/sweep/text/wrap.hpp"
