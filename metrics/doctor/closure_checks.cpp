@@ -194,17 +194,19 @@ std::vector<InputFinding> check_closures(const Problem& problem,
                                          const methods::ClosureJudgement* known) {
   std::vector<InputFinding> out;
   if (problem.closures.empty()) return out;
-  Problem checked = problem;  // without the closures found before
-  JudgedProblem judged(checked, known);
+  std::vector<Edge> closures = problem.closures;  // without those found before
+  JudgedProblem judged(problem, known);
   const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
   if (!is_chain) return judged.findings();
   const Chain chain = chain_of(problem);
   if (!judged.is_as_stated()) {
-    if (auto found = remove_placeholders(checked.closures, chain)) {
+    if (auto found = remove_placeholders(closures, chain)) {
       out.push_back(*found);
-      judged.forget();
+      Problem rest = problem;
+      rest.closures = closures;
+      judged = JudgedProblem(std::move(rest), nullptr);
     }
-    const std::vector<LoopPaths> loops = loop_paths(checked.closures, chain);
+    const std::vector<LoopPaths> loops = loop_paths(closures, chain);
     const auto repair = find_closure_repair(loops, chain);
     // Over odometry with scales, rotations alone are compared: half as much evidence.
     const std::size_t fewest = chain.has_scale ? 2 * kFewestLoops : kFewestLoops;

@@ -8,13 +8,19 @@
 #include <utility>
 
 #include "methods/correctors/consensus/judgement_text.hpp"
+#include "metrics/doctor/loop_chain.hpp"
+#include "metrics/doctor/sampling.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
-/// Factor on the odometry's deviations, of translation and rotation [-].
-double odometry_factor(const methods::EstimatedFactors& of) {
-  return std::sqrt(of.translation * of.rotation);
+/// Closures are sorted by their ends.
+void remove_repeated(std::vector<Edge>& closures) {
+  const auto is_same = [](const Edge& a, const Edge& b) {
+    return a.from == b.from && a.to == b.to &&
+           is_close(a.from_from_to, b.from_from_to, kFileRounding, kFileRounding);
+  };
+  closures.erase(std::unique(closures.begin(), closures.end(), is_same), closures.end());
 }
 
 /// Distance travelled up to each keyframe [m].
@@ -27,24 +33,15 @@ std::vector<double> distances(const Problem& problem) {
 
 }  // namespace
 
-JudgedProblem::JudgedProblem(const Problem& problem, const methods::ClosureJudgement* known)
-    : problem_(problem) {
+JudgedProblem::JudgedProblem(Problem problem, const methods::ClosureJudgement* known)
+    : problem_(std::move(problem)) {
   if (known != nullptr) {
     judgement_ = *known;
-  } else {
-    forget();
+    return;
   }
-}
-
-void JudgedProblem::forget() {
-  judgement_.reset();
-  if (!problem_.anchors.empty()) {  // they are no closures
-    Problem without = problem_;
-    without.anchors.clear();
-    if (methods::why_not_judged(without).empty()) judgement_ = methods::judge_closures(without);
-  } else if (methods::why_not_judged(problem_).empty()) {
-    judgement_ = methods::judge_closures(problem_);
-  }
+  problem_.anchors.clear();  // they are no closures
+  remove_repeated(problem_.closures);
+  if (methods::why_not_judged(problem_).empty()) judgement_ = methods::judge_closures(problem_);
 }
 
 bool JudgedProblem::is_as_stated() const {
@@ -83,22 +80,23 @@ std::optional<InputFinding> JudgedProblem::gap(bool is_drift_known) const {
   });
   if (found.empty()) return std::nullopt;
   const double most = -judgement_->closures[found.front()].log_odds / kSure;
-  return InputFinding{
-      Fault::closure_gap,
-      fmt::format("{} of {} closures contradict the odometry or other closures: {}",
-                  found.size(),
-                  problem_.closures.size(),
-                  methods::closures_text(problem_, *judgement_, found)),
-      "check them; method consensus drops them",
-      1.0 - 1.0 / std::max(2.0, most),
-      static_cast<double>(found.size())};
+  return InputFinding{Fault::closure_gap,
+                      fmt::format("{} of {} closures contradict the odometry or other closures: {}",
+                                  found.size(),
+                                  problem_.closures.size(),
+                                  methods::closures_text(problem_, *judgement_, found)),
+                      "check them; method consensus drops them",
+                      1.0 - 1.0 / std::max(2.0, most),
+                      static_cast<double>(found.size())};
 }
 
 std::optional<InputFinding> JudgedProblem::information() const {
   constexpr double kTooLarge = 10.0, kTooSmall = 0.01;  // drift exceeds noise
+  if (judgement_->agreeing < kFewestLoops) return std::nullopt;
   const methods::EstimatedFactors& of = judgement_->factors;
   const auto is_usual = [](double factor) { return factor < kTooLarge && factor > kTooSmall; };
-  const double odometry = odometry_factor(of);
+  // Few loops do not tell which component is wrong.
+  const double odometry = std::max(of.translation, of.rotation);
   if (is_usual(odometry) && is_usual(of.closures)) return std::nullopt;
   const double found = is_usual(odometry) ? of.closures : odometry;
   return InputFinding{

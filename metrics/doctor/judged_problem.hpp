@@ -9,20 +9,18 @@
 
 namespace loopbench::metrics {
 
-/// Judges a problem at most once. The problem must outlive it.
+/// A problem, and the judgement of its closures.
 class JudgedProblem {
  public:
-  /// `known`: judgement of this problem, if it was computed before; may be null.
-  JudgedProblem(const Problem& problem, const methods::ClosureJudgement* known);
+  /// `known`: judgement of this problem, if it was computed before. If it is null, closures that
+  /// are listed twice are judged once: they agree exactly, which shows nothing.
+  JudgedProblem(Problem problem, const methods::ClosureJudgement* known);
 
   /// Whether the closures decide. Those of edges that change the scale are not judged.
   bool is_decided() const { return judgement_ && judgement_->is_decided(); }
 
   /// Whether nearly all closures agree, with the stated deviations: nothing is wrong with them.
   bool is_as_stated() const;
-
-  /// Judges the problem again, which has changed.
-  void forget();
 
   /// Closures that disagree, and deviations that are not those stated. Empty if the closures do not
   /// decide.
@@ -32,7 +30,7 @@ class JudgedProblem {
   std::optional<InputFinding> gap(bool is_drift_known) const;
   std::optional<InputFinding> information() const;
 
-  const Problem& problem_;
+  Problem problem_;
   std::optional<methods::ClosureJudgement> judgement_;
 };
 

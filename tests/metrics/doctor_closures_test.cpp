@@ -237,7 +237,7 @@ TEST(DoctorOfClosures, InformationOfTheOdometry) {
 
 TEST(DoctorOfClosures, GapsThatSmallVariancesExplainAreNoContradictions) {
   Problem problem = rounds(10.0);
-  add_false_closure(problem, 10, 14, 3.2);  // within the noise
+  add_false_closure(problem, 10, 14, 1.2);  // three deviations of four steps and a closure
   EXPECT_THAT(closure_faults(problem), IsEmpty());
   scale_information(problem.odometry, 1e6);
   scale_information(problem.closures, 1e6);
