@@ -60,7 +60,7 @@ TEST(ClosureCheck, NamesAFalseClosureWithItsDistance) {
   const CheckSentence found = of_consensus(problem);
   EXPECT_THAT(found.text, StartsWith("4 of 5 closures are used; dropped: 54.0 s -> 114.0 s ("));
   const std::string distance = found.text.substr(found.text.find('(') + 1);
-  EXPECT_NEAR(std::atof(distance.c_str()), 8.0, 0.3);
+  EXPECT_NEAR(std::atof(distance.c_str()), 8.0, 1.0);  // the drift of half a round
   EXPECT_THAT(found.text, HasSubstr(" m, "));
   EXPECT_FALSE(found.is_warning);
 }
@@ -68,7 +68,7 @@ TEST(ClosureCheck, NamesAFalseClosureWithItsDistance) {
 TEST(ClosureCheck, NamesWhatAnotherMethodUsedAndLost) {
   const CheckSentence used = of_pose_graph(one_false());
   EXPECT_TRUE(used.is_warning);
-  EXPECT_THAT(used.text, StartsWith("5 of 5 closures are used by pose_graph; 1 of them disagree"));
+  EXPECT_THAT(used.text, StartsWith("5 of 5 closures are used by pose_graph; 1 of them disagrees"));
   EXPECT_THAT(used.text, HasSubstr("54.0 s -> 114.0 s ("));
   const CheckSentence lost = of_pose_graph(one_false(), {0, 2});
   EXPECT_FALSE(lost.is_warning);

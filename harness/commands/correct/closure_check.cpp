@@ -44,6 +44,11 @@ CheckSentence of_consensus(const ClosureJudgement& found, const Problem& problem
   return {out + details(found, problem)};
 }
 
+/// A reason to decline without what it states about the method, and without its advice.
+std::string cause(const std::string& why) {
+  return why.substr(0, std::min(why.find(", which "), why.find(": use pose_graph")));
+}
+
 /// Another method chose the closures.
 CheckSentence of_other(const ClosureCheck& check, const Problem& problem, const ClosureUse& use) {
   const ClosureJudgement& found = *check.judgement;
@@ -54,9 +59,11 @@ CheckSentence of_other(const ClosureCheck& check, const Problem& problem, const 
   }
   const std::vector<std::size_t> wrong = disagreeing_used(check, use);
   if (!wrong.empty()) {
-    out += fmt::format("; {} of them disagree with the others: {}; --method consensus drops them",
+    out += fmt::format("; {} of them {} with the others: {}; --method consensus drops {}",
                        wrong.size(),
-                       methods::disagreeing_text(problem, found, wrong));
+                       wrong.size() == 1 ? "disagrees" : "disagree",
+                       methods::disagreeing_text(problem, found, wrong),
+                       wrong.size() == 1 ? "it" : "them");
   }
   const auto lost = std::ranges::count_if(use.rejected, [&](std::size_t k) {
     return found.closures[k].finding == ClosureFinding::agrees;
@@ -106,14 +113,11 @@ std::vector<std::size_t> disagreeing_used(const ClosureCheck& check, const Closu
 
 CheckSentence sentence(const ClosureCheck& check, const Problem& problem, const ClosureUse& use) {
   if (check.judgement == nullptr) {
-    std::string why = check.why_not;
-    const std::size_t advice = why.rfind(": use pose_graph");
-    if (advice != std::string::npos) why.resize(advice);
     return {
         fmt::format("{} are used by {}; they were not checked: {}",
                     of_all(problem.closures.size() - use.rejected.size(), problem.closures.size()),
                     use.method,
-                    why)};
+                    cause(check.why_not))};
   }
   return use.is_consensus ? of_consensus(*check.judgement, problem) : of_other(check, problem, use);
 }
