@@ -143,7 +143,7 @@ class Figures(unittest.TestCase):
     def test_scores_and_costs_of_all_sequences(self):
         self.sweep("{dataset: simulated, sweep: {keyframes: [20, 40, 80]}}", "raw, uniform", "traces: false\n")
         self.assertIn("f/ratio.svg\nf/time.svg\nf/boxes.svg\nf/growth.svg\n", self.call("plot r -o f --format svg")[0])
-        self.expect_in("f/ratio.svg", ">ratio to raw: ate rmse, dense<")
+        self.expect_in("f/ratio.svg", ">change to raw [%]: ate rmse, dense<")
         self.expect_in("f/growth.svg", ">uniform: time O(n^")
         out, _ = self.call("plot r -o g --panels time,growth --format pgf --methods raw")
         self.assertEqual(out, "g/time.pgf\ng/growth.pgf\n")

@@ -8,6 +8,7 @@
 #include "harness/answers/compare/verdict.hpp"
 #include "harness/answers/report/curve.hpp"
 #include "harness/answers/report/report.hpp"
+#include "harness/sweep/model/evaluated_run.hpp"
 #include "harness/sweep/model/name_order.hpp"
 #include "harness/sweep/store/read.hpp"
 
@@ -43,6 +44,11 @@ std::string ReportContent::run_value(const std::string& key) const {
 
 const Comparison* ReportContent::headline() const { return harness::headline(comparisons); }
 
+ReportWords words_of(const ReportContent& content) {
+  if (!is_of_files(content.run_value("config"))) return {};
+  return {.one = "estimate", .cell = "evaluation"};
+}
+
 void ReportContent::show(std::size_t count) {
   shown = std::min(count, shown);
   const std::set<std::string> kept(sequences.begin(),
@@ -71,6 +77,8 @@ ReportContent read_report_content(const std::filesystem::path& store, std::size_
   out.sequences = sequences.names();
   out.methods = methods.names();
   add_derived(out.records, baseline);
+  // The page states changes instead.
+  std::erase_if(out.records, [](const Record& r) { return r.kind->metric == "gain"; });
   std::set<SharedText> with_records;
   for (const Record& r : out.records) with_records.insert(r.cell->sequence);
   out.shown = out.sequences.size();

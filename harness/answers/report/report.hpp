@@ -45,6 +45,15 @@ struct ReportContent {
   const Comparison* headline() const;
 };
 
+/// What a page calls the things it compares.
+struct ReportWords {
+  const char* one = "method";
+  const char* cell = "cell";
+};
+
+/// Of evaluated files: estimates, and evaluations.
+ReportWords words_of(const ReportContent& content);
+
 /// Shows as many sequences as could fit into `bytes`. The memory is bounded by `bytes`, the number
 /// of cells (about 600 bytes each) and the number of compared values (32 bytes each). Throws
 /// InputError if it is not a store, or a store without cells.

@@ -111,6 +111,7 @@ nlohmann::json scores_json(const ReportContent& content) {
     if (const auto known = method.find(name); known != method.end()) shown.push_back(known->second);
   }
   return {{"methods", content.methods},
+          {"word", words_of(content).one},
           {"styles", std::move(styles)},
           {"default_methods", std::move(shown)},
           {"oracle", oracle},

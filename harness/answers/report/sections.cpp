@@ -1,13 +1,11 @@
 #include "harness/answers/report/sections.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "harness/answers/tables/comparison.hpp"
 #include "harness/answers/tables/pivot.hpp"
 
 namespace loopbench::harness {
@@ -21,61 +19,8 @@ std::string plural(std::size_t number, const std::string& one) {
   return number == 1 ? one : one + "s";
 }
 
-/// Gains and times are shown next to the names, so that they need no scrolling.
-bool is_shown_first(const Record& r) {
-  return r.kind->metric == "gain" || r.kind->metric == "time";
-}
-
-/// The first score in large type, for a single method.
-std::string only_score(const ReportContent& content) {
-  const auto first = std::ranges::find_if(
-      content.records, [](const Record& r) { return r.has_score() && r.status == Status::ok; });
-  if (first == content.records.end()) return "";
-  return fmt::format(
-      "<div class=\"key\"><span class=\"number\">{:.4g} {}</span><span class=\"what\">{} of "
-      "<b>{}</b>, rmse, {}, {}</span></div>\n",
-      first->statistics.rmse,
-      html_text(first->kind->unit),
-      html_text(first->kind->short_name()),
-      html_text(first->cell->method.text()),
-      html_text(first->kind->times),
-      html_text(first->kind->protocol));
-}
-
-/// The verdict of each score.
-std::string verdicts_html(const ReportContent& content) {
-  const Comparison* headline = content.headline();
-  if (headline == nullptr && content.methods.size() == 1) return only_score(content);
-  std::string out = fmt::format(
-      "<p class=\"verdict\" data-comparison=\"\"{}>No verdict: the sweep has no baseline, or fewer "
-      "than two methods with a common run and this score.</p>\n",
-      headline == nullptr ? "" : " hidden");
-  for (const Comparison& c : content.comparisons) {
-    if (c.methods.size() < 2) continue;
-    Table groups = verdict_table(verdict_of(c, content.comparisons), 0);
-    out += fmt::format("<div data-comparison=\"{}\"{}><p class=\"verdict\">{}</p>\n",
-                       &c - content.comparisons.data(),
-                       &c == headline ? "" : " hidden",
-                       html_text(groups.title));
-    groups.title = "";
-    out += html_table(groups);
-    if (!c.oracles.empty()) {
-      out += "<p class=\"warning\">Excluded from verdicts because they use the reference: " +
-             html_text(fmt::format("{}", fmt::join(c.oracles, ", "))) + "</p>\n";
-    }
-    out += "</div>\n";
-  }
-  std::set<std::string> measured;
-  for (const CellRow& cell : content.cells) {
-    if (cell.oracle_closures) measured.insert(cell.sequence);
-  }
-  if (measured.empty()) return out;
-  const bool are_all = measured.size() == content.sequences.size();
-  return out + "<p class=\"warning\">" +
-         html_text(are_all ? "all sequences" : fmt::format("{}", fmt::join(measured, ", "))) +
-         ": loop closures were measured in the reference or selected by it (oracle), which is "
-         "better than any detector.</p>\n";
-}
+/// Times are shown next to the names, so that they need no scrolling.
+bool is_shown_first(const Record& r) { return r.kind->metric == "time"; }
 
 }  // namespace
 
@@ -88,12 +33,14 @@ std::string summary_html(const ReportContent& content) {
   }
   std::string out =
       "<div class=\"counters\">" +
-      counter(content.methods.size(), plural(content.methods.size(), "method")) +
+      counter(content.methods.size(), plural(content.methods.size(), words_of(content).one)) +
       counter(content.sequences.size(), plural(content.sequences.size(), "sequence")) +
       counter(repeats.size(), plural(repeats.size(), "repeat"));
   for (const auto& [status, number] : statuses) {
     const bool is_bad = is_failure(status);
-    out += counter(number, plural(number, "cell") + " " + to_text(status), is_bad ? "bad" : "");
+    out += counter(number,
+                   plural(number, words_of(content).cell) + " " + to_text(status),
+                   is_bad ? "bad" : "");
   }
   out += "</div>\n";
   if (content.shown == content.sequences.size()) return out;
@@ -113,12 +60,6 @@ std::string notes_html(const ReportContent& content, Severity least) {
   return out + "</ul>\n";
 }
 
-std::string answers_html(const ReportContent& content) {
-  const std::string decisive = notes_html(content, Severity::decisive);
-  return (decisive.empty() ? "" : "<div class=\"warning\">" + decisive + "</div>\n") +
-         verdicts_html(content);
-}
-
 std::string scores_html(const ReportContent& content) {
   std::string out;
   std::map<SharedText, std::vector<Record>> by_sequence;
@@ -133,7 +74,8 @@ std::string scores_html(const ReportContent& content) {
       if (r.kind->times == times || !r.has_score()) records.push_back(r);
     }
     if (std::ranges::all_of(records, [](const Record& r) { return !r.has_score(); })) return;
-    for (const Table& table : pivot(records, TableSpec{})) {
+    for (Table& table : pivot(records, TableSpec{})) {
+      if (table.headings.front() == "method") table.headings.front() = words_of(content).one;
       out += html_table(
           table, "data-sequence=\"" + html_text(sequence) + "\" data-times=\"" + times + "\"");
     }

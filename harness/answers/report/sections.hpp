@@ -27,7 +27,9 @@ std::string summary_html(const ReportContent& content);
 /// Notes of at least this severity, as a list; empty if there are none.
 std::string notes_html(const ReportContent& content, Severity least);
 
-/// The verdict of each score: sentence, groups, cautions, limits; all but the headline are hidden.
+/// The notes that can change a conclusion, and the verdict of each score: sentence, a table of all
+/// methods, the best first, cautions, limits; all but the headline are hidden. Without a verdict,
+/// all methods with their mean error.
 std::string answers_html(const ReportContent& content);
 
 /// Methods by scores, a table for each sequence, times and protocol.

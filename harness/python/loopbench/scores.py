@@ -188,7 +188,8 @@ def _draw_ratio(axes: Any, data: Data, size: Sequence[float]) -> None:
     _set_log(axes.xaxis, [*ends, 1.0], size[0])
     baseline = data["comparison"]["baseline"]
     baseline = data["names"].get(baseline, baseline)
-    text = f"ratio to {_short(baseline, 24)}: {_label(data, False)}"
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda ratio, _: f"{100.0 * (ratio - 1.0):+.3g}"))
+    text = f"change to {_short(baseline, 24)} [%]: {_label(data, False)}"
     axes.set_xlabel(text, parse_math=False, loc="right")
 
 

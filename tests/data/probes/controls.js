@@ -57,7 +57,7 @@ const ranked = comparison.methods.map((m) => m.method).filter((m) => m !== compa
 if (few.some((m, i) => i > 0 && R.methods[m].name !== ranked[i - 1])) said.push("best few are not the best");
 document.querySelectorAll("#controls details button")[1].click();
 const headings = [...document.querySelector("#scores thead tr").cells].map((c) => c.textContent);
-if (!headings[1].startsWith("gain") || !headings[2].startsWith("time")) said.push("columns: " + headings.join());
+if (!headings[1].startsWith("time")) said.push("columns: " + headings.join());
 if (document.querySelector("#controls details").open) said.push("the list of methods is not folded");
 const shown = [...document.querySelectorAll("#scores figure")].find((f) => !f.hidden);
 const column = () => [...shown.querySelectorAll("tbody th")].map((c) => c.textContent);
@@ -69,4 +69,37 @@ const filter = document.querySelector("#table-controls input");
 filter.value = "swept";
 filter.dispatchEvent(new Event("input"));
 if ([...shown.querySelectorAll("tbody tr")].filter((r) => !r.hidden).length !== 2) said.push("filter");
+// A click on a name in the legend draws a method or not, in the table of the answer, too.
+document.querySelectorAll("#controls details button")[2].click();
+if (count("#map path.curve") !== 0) said.push("none: " + count("#map path.curve"));
+const names = () => [...document.querySelectorAll("#map button.switch")];
+if (names().length !== 4) said.push("names in the legend: " + names().length);
+names()[0].click();
+if (count("#map path.curve") !== 1 || names()[0].getAttribute("aria-pressed") !== "true") said.push("a click draws nothing");
+const row = document.querySelector("#answer div:not([hidden]) tr[data-method] button.switch");
+row.click();
+row.click();
+// What is under the pointer is named there and in the curves of errors.
+document.querySelectorAll("#controls details button")[1].click();
+const path = document.querySelector("#map path.curve").getBoundingClientRect();
+const on = (x, y) => document.querySelector("#map svg").dispatchEvent(new PointerEvent("pointermove", { clientX: x, clientY: y, bubbles: true }));
+on(path.left + 1, path.top + 1);
+for (let x = path.left; !document.querySelector("#along-x svg text.halo") && x < path.right; x += 5) {
+  for (let y = path.top; !document.querySelector("#along-x svg text.halo") && y < path.bottom; y += 20) on(x, y);
+}
+if (!/ m at /.test(document.querySelector("#along-x svg").textContent)) said.push("no value under the pointer");
+// Every method of the comparison has a row; names of error against time cover no dot.
+const table = document.querySelector("#answer [data-comparison]:not([hidden]) table");
+if (table.tBodies[0].rows.length < comparison.methods.length) said.push("rows of the answer");
+const labels = [...document.querySelectorAll("#pareto-all text.halo")];
+const dots = [...document.querySelectorAll("#pareto-all circle")];
+if (labels.length !== dots.length) said.push(`${labels.length} of ${dots.length} dots have a name`);
+for (const label of labels) {
+  const a = label.getBoundingClientRect();
+  for (const dot of dots) {
+    const b = dot.getBoundingClientRect();
+    const [wide, high] = [Math.min(a.right, b.right) - Math.max(a.left, b.left), Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top)];
+    if (wide > 2 && high > 4) said.push("a name covers a dot: " + label.textContent);
+  }
+}
 document.title = "probed: " + (said.join("; ") || "well");

@@ -2,9 +2,9 @@
 const said = [];
 const wide = document.documentElement.clientWidth;
 if (wide >= 1200 && document.documentElement.scrollHeight > 6000) said.push("higher than 6000 pixels");
-const charts = [...document.querySelectorAll("#answer svg")].map((chart) => chart.getBoundingClientRect());
+const charts = [...document.querySelectorAll("#answer .bar svg, #map > svg")].map((chart) => chart.getBoundingClientRect());
 const first = charts.find((box) => box.width > 0);
-if (!first || first.width < 100 || first.bottom > innerHeight) said.push("no chart on the first screen");
+if (!first || first.width < 60 || first.bottom > innerHeight) said.push("no chart on the first screen");
 for (const table of document.querySelectorAll("#answer table")) {
   const headings = [...table.tHead.rows[0].cells];
   const columns = headings.reduce((sum, heading) => sum + heading.colSpan, 0);

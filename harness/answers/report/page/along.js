@@ -19,7 +19,7 @@
       const host = document.getElementById(id);
       host.replaceChildren();
       R.caption(host, name === "rotation" ? "Rotation" : `Along ${name}`, R.runName(s));
-      if (!traces.length) { R.nothing(host, "None of the selected methods has a trajectory."); continue; }
+      if (!traces.length) { R.nothing(host, `None of the selected ${R.word}s has a trajectory.`); continue; }
       R.chart(host, {
         label: `${label} of ${methods.map((m) => m.label).join(", ")}`, height: 250, zoom: true,
         x: { label: by === "s" ? "path length of the reference [m]" : "time [s]", domain: [0, far] },
@@ -32,6 +32,28 @@
               .append("title").text("loop closure");
           }
           methods.forEach((m, i) => R.curve(group, traces[i][by], traces[i][key], x, y, m));
+        },
+        pointer: {
+          find: (px, py, x, y) => {
+            let [best, least] = [null, 60];  // pixels
+            methods.forEach((m, i) => {
+              const k = R.placeAt(traces[i][by], x.invert(px));
+              const far = Math.abs(y(traces[i][key][k]) - py);
+              if (far < least) [best, least] = [{ s, m: m.place, t: traces[i].t[k] }, far];
+            });
+            return best;
+          },
+          at: (point, x, y) => {
+            const i = point.s === s ? methods.findIndex((m) => m.place === point.m) : -1;
+            if (i < 0) return null;
+            const k = R.placeAt(traces[i].t, point.t);
+            return Number.isFinite(traces[i][key][k]) ? [x(traces[i][by][k]), y(traces[i][key][k])] : null;
+          },
+          text: (point) => {
+            const trace = R.trace(s, point.m);
+            const k = R.placeAt(trace.t, point.t);
+            return [R.methods[point.m].label, `${R.number(trace[key][k])} ${key === "a" ? "deg" : "m"} at ${R.number(trace[by][k])} ${by === "s" ? "m" : "s"}`];
+          },
         },
       });
     }
@@ -49,7 +71,7 @@
       });
     }
     const last = document.getElementById("along-a");
-    R.methodLegend(last, methods, false);
+    R.switches(last, s, false);
     const loops = reference ? reference.closures.length : 0;
     if (loops) d3.select(last).append("p").attr("class", "hint below").text("Vertical lines: loop closures.");
   });

@@ -20,6 +20,45 @@
       span.append("span").text(e.name);
     }
   };
+  const swatch = (m) => {
+    const isShown = R.state.shown.has(m.place);
+    const svg = d3.create("svg").attr("width", 26).attr("height", 10).style("width", "26px").attr("aria-hidden", true);
+    svg.append("line").attr("x1", 2).attr("x2", 24).attr("y1", 5).attr("y2", 5).style("stroke", isShown ? R.color(m.place) : "var(--line)")
+      .attr("stroke-width", 2.4).attr("stroke-dasharray", R.dash(m.place));
+    return svg.node();
+  };
+  // A button that draws a method or not, in all figures.
+  R.switchOf = (m, text = m.label) => {
+    const out = document.createElement("button");
+    out.type = "button";
+    out.className = "switch";
+    out.dataset.method = m.place;
+    const update = () => out.setAttribute("aria-pressed", R.state.shown.has(m.place));
+    out.append(swatch(m), text);
+    out.addEventListener("click", () => {
+      const host = out.closest("figure");
+      if (!R.state.shown.delete(m.place)) R.state.shown.add(m.place);
+      R.changed();
+      const again = host && host.querySelector(`button.switch[data-method="${m.place}"]`);  // figures are drawn anew
+      if (again) again.focus({ preventScroll: true });
+    });
+    update();
+    return out;
+  };
+  // All methods that have a trajectory on a sequence: those that are drawn, and those that a click draws.
+  R.switches = (host, s, withReference = true) => {
+    if (withReference) R.legend(host, [{ name: "reference", color: "var(--band)", wide: true }]);
+    const legend = withReference ? host.lastChild : host.appendChild(Object.assign(document.createElement("div"), { className: "legend" }));
+    for (const m of R.methods) if (R.trace(s, m.place)) legend.append(R.switchOf(m));
+  };
+
+  // A point {s, m, t} of a trajectory under the pointer is marked in all figures that show it.
+  let marks = [];
+  R.point = (point) => {
+    marks = marks.filter((each) => each.node.isConnected);
+    for (const each of marks) each.show(point);
+  };
+
   R.methodLegend = (host, methods, withReference = true) => R.legend(host, [
     ...(withReference ? [{ name: "reference", color: "var(--band)", wide: true }] : []),
     ...methods.map((m) => ({ name: m.label, color: R.color(m.place), dash: R.dash(m.place) })),
@@ -46,8 +85,8 @@
 
   const moves = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
 
-  // o: {label, width, height, margin, x: {label, domain, log, ticks}, y: likewise or {band}, equal, zoom,
-  // draw(group, x, y)}; draw is called again at every zoom.
+  // o: {label, width, height, margin, x: {label, domain, log, ticks, format}, y: likewise or {band}, equal, zoom,
+  // draw(group, x, y), pointer}; draw is called again at every zoom.
   R.chart = (host, o) => {
     // Uses the available width, so that text keeps its size on a phone.
     const width = o.width || Math.max(330, Math.min(600, host.clientWidth || 600));
@@ -74,7 +113,7 @@
     const [xOrigin, yOrigin] = [origin(o.x, xDomain), origin(o.y, yDomain)];
     const withOrigin = (label, from) =>
       from ? label.replace(" [", ` ${from < 0 ? "+" : "−"} ${Math.abs(from)} [`) : label;
-    const numbers = (axis, s, from) => axis.log ? R.number : from ? (t) => s.tickFormat(7)(t - from) : null;
+    const numbers = (axis, s, from) => axis.format ? axis.format : axis.log ? R.number : from ? (t) => s.tickFormat(7)(t - from) : null;
     const scale = (axis, domain, range) => axis.band
       ? d3.scaleBand(axis.band, range).padding(above ? 0.5 : 0.25)
       : (axis.log ? d3.scaleLog(domain, range) : d3.scaleLinear(domain, range));
@@ -125,8 +164,28 @@
       }
       plot.selectAll("*").remove();
       o.draw(plot, x, y);
+      scales = [x, y];
     };
+    let scales;
     render(x0, y0);
+    if (o.pointer) {
+      // o.pointer: {find(px, py, x, y): point or null, at(point, x, y): [px, py] or null, text(point)}
+      const mark = root.append("g").style("pointer-events", "none").attr("aria-hidden", true);
+      const show = (point) => {
+        mark.selectAll("*").remove();
+        const at = point && o.pointer.at(point, ...scales);
+        if (!at || at[0] < 0 || at[0] > inner.width || at[1] < 0 || at[1] > inner.height) return;
+        mark.append("circle").attr("cx", at[0]).attr("cy", at[1]).attr("r", 5).style("fill", R.color(point.m)).style("stroke", "var(--ink)");
+        const onLeft = at[0] > inner.width / 2;
+        const lines = o.pointer.text(point);
+        const top = Math.max(12, Math.min(inner.height - 14 * lines.length, at[1] - 8));
+        lines.forEach((line, i) => mark.append("text").attr("class", "halo strong").attr("x", at[0] + (onLeft ? -10 : 10))
+          .attr("y", top + 14 * i).attr("text-anchor", onLeft ? "end" : null).text(line));
+      };
+      marks.push({ node: svg.node(), show });
+      svg.on("pointermove.point", (e) => R.point(o.pointer.find(...d3.pointer(e, root.node()), ...scales)))
+        .on("pointerleave.point", () => R.point(null));
+    }
     if (o.zoom) {
       const zoom = d3.zoom().scaleExtent([1, 60])
         .filter((e) => (e.type === "wheel" ? e.ctrlKey : e.touches ? e.touches.length > 1 : !e.button))

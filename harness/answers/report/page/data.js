@@ -5,6 +5,9 @@
   const raw = JSON.parse(document.getElementById("report-data").textContent);
   R.scores = raw.scores;
   R.comparisons = raw.comparisons;
+  // What the page compares: "method", or "estimate" on pages of evaluated files.
+  R.word = raw.scores.word;
+  R.Word = R.word[0].toUpperCase() + R.word.slice(1);
   R.methods = raw.scores.methods.map((name, m) => ({
     name, place: m, oracle: raw.scores.oracle[m], timeMark: raw.scores.stated[m] ? " (s)" : "",
     label: raw.scores.oracle[m] ? name + " (oracle)" : name,
@@ -100,6 +103,8 @@
   // Index of the first stamp that is not before t.
   R.placeAt = (stamps, t) => Math.min(d3.bisectLeft(stamps, t), stamps.length - 1);
 
+  // A ratio as a change: "-41 %" of 0.59.
+  R.change = (ratio) => (ratio === null || !Number.isFinite(ratio) ? "-" : d3.format("+.3~g")(100 * (ratio - 1)));
   R.number = (value) => {
     if (value === null || !Number.isFinite(value)) return "-";
     return Math.abs(value) >= 1e4 || (value !== 0 && Math.abs(value) < 1e-3)

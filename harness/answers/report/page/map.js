@@ -37,7 +37,7 @@
     const reference = R.reference(s);
     const methods = R.shown().filter((m) => R.trace(s, m.place));
     const [a, b] = reference ? R.plane(reference) : ["x", "y"];
-    R.caption(host, `Plane (${a}, ${b})`, R.runName(s));
+    R.caption(host, `Trajectories (plane ${a}, ${b})`, R.runName(s));
     if (!reference) return R.nothing(host, "No stored trajectories of this sequence (traces: false).");
     const traces = methods.map((m) => R.trace(s, m.place));
     R.chart(host, {
@@ -49,8 +49,30 @@
         group.append("circle").attr("cx", x(reference[a][0])).attr("cy", y(reference[b][0])).attr("r", 4.5)
           .style("fill", "var(--ink)").append("title").text("start of the reference");
       },
+      pointer: {
+        find: (px, py, x, y) => {
+          let [best, least] = [null, 40 ** 2];  // within 40 pixels
+          methods.forEach((m, i) => traces[i].t.forEach((t, k) => {
+            const far = (x(traces[i][a][k]) - px) ** 2 + (y(traces[i][b][k]) - py) ** 2;
+            if (far < least) [best, least] = [{ s, m: m.place, t }, far];
+          }));
+          return best;
+        },
+        at: (point, x, y) => {
+          const trace = point.s === s && R.state.shown.has(point.m) && R.trace(s, point.m);
+          if (!trace) return null;
+          const k = R.placeAt(trace.t, point.t);
+          return [x(trace[a][k]), y(trace[b][k])];
+        },
+        text: (point) => {
+          const trace = R.trace(s, point.m);
+          const k = R.placeAt(trace.t, point.t);
+          const angle = Number.isFinite(trace.a[k]) ? `, ${R.number(trace.a[k])} deg` : "";
+          return [R.methods[point.m].label, `${R.number(trace.norm[k])} m${angle}`, `at ${R.number(trace.t[k])} s, ${R.number(trace.s[k])} m`];
+        },
+      },
     });
-    R.methodLegend(host, methods);
+    R.switches(host, s);
   });
 
   const coloured = (host, m, most, axes, reference, s) => {
@@ -58,7 +80,7 @@
     const trace = R.trace(s, m.place);
     if (!trace) {
       R.caption(host, m.label);
-      return R.nothing(host, "This method has no trajectory; see the failures.");
+      return R.nothing(host, `This ${R.word} has no trajectory; see the failures.`);
     }
     const rms = Math.sqrt(d3.mean(trace.norm, (e) => e * e));
     const digits = d3.format(".3~g");

@@ -6,7 +6,8 @@
   const geometric = (values) => Math.exp(d3.mean(values, (v) => Math.log(v)));
 
   if (!R.scores.cells.some((c) => c.ms > 0)) {  // results of files (`eval --store`)
-    document.getElementById("pareto-all").hidden = document.getElementById("pareto-here").hidden = true;
+    R.hide("time");
+    document.getElementById("pareto-here").hidden = true;
     return;
   }
 
@@ -32,37 +33,47 @@
       ? "geometric means over all sequences" : R.scores.sequences[s || 0]);
     if (kind.better !== "lower") return R.nothing(host, "Select a score for which lower is better.");
     const all = points(s);
-    if (!all.length) return R.nothing(host, "No method has a positive value of this score.");
+    if (!all.length) return R.nothing(host, `No ${R.word} has a positive value of this score.`);
     const fair = all.filter((p) => !p.m.oracle);
     const front = d3.sort(R.front(fair), (p) => p.ms);
-    const isNamed = (p) => front.includes(p) || R.state.shown.has(p.m.place);
     R.chart(host, {
       label: `${R.kindLabel(kind)} against time`, height: 400, zoom: true, margin: { left: 66, right: 24 },
-      x: { label: "time of the method [ms]", domain: R.paddedLog(d3.extent(all, (p) => p.ms)), log: true },
+      x: { label: `time of the ${R.word} [ms]`, domain: R.paddedLog(d3.extent(all, (p) => p.ms)), log: true },
       y: { label: R.kindLabel(kind), domain: R.paddedLog(d3.extent(all, (p) => p.error)), log: true },
       draw: (group, x, y) => {
         group.append("path").attr("class", "curve").style("stroke", "var(--soft)").attr("stroke-dasharray", "5 4")
           .attr("d", d3.line().x((p) => x(p.ms)).y((p) => y(p.error)).curve(d3.curveStepAfter)(front));
-        const dots = group.selectAll("g").data(all).join("g").attr("transform", (p) => `translate(${x(p.ms)},${y(p.error)})`);
-        dots.append("circle").attr("r", (p) => (front.includes(p) ? 7 : 5))
+        const radius = (p) => (front.includes(p) ? 7 : 5);
+        group.selectAll("circle").data(all).join("circle").attr("cx", (p) => x(p.ms)).attr("cy", (p) => y(p.error)).attr("r", radius)
           .style("fill", (p) => (R.state.shown.has(p.m.place) ? R.color(p.m.place) : "var(--soft)"))
           .style("fill-opacity", (p) => (front.includes(p) ? 1 : 0.7)).style("stroke", "var(--card)")
           .append("title").text((p) => `${p.m.label}: ${R.number(p.error)} ${kind.unit}, ${R.number(p.ms)} ms${p.m.timeMark}`);
-        // Avoids overlapping names: those at the right edge are placed left, others of the same height above or below.
-        const taken = [];
-        const most = Math.max(12, Math.floor(x.range()[1] / 16));  // characters: about half of the width
-        dots.filter(isNamed).sort((a, b) => d3.ascending(a.error, b.error)).each(function (p) {
+        // Names of all points, above the dots, where they cover neither dots nor names.
+        const [width, height] = [x.range()[1], y.range()[0]];
+        const taken = all.map((p) => ({ left: x(p.ms) - radius(p) - 1, right: x(p.ms) + radius(p) + 1, top: y(p.error) - radius(p) - 1, bottom: y(p.error) + radius(p) + 1 }));
+        const isFree = (box) => box.left >= 0 && box.right <= width && box.top >= 0 && box.bottom <= height &&
+          taken.every((t) => box.right < t.left || t.right < box.left || box.bottom < t.top || t.bottom < box.top);
+        const most = Math.max(12, Math.floor(width / 16));  // characters: about half of the width
+        for (const p of [...front, ...d3.sort(all.filter((q) => !front.includes(q)), (q) => q.error)]) {
+          const [cx, cy] = [x(p.ms), y(p.error)];
+          if (cx < 0 || cx > width || cy < 0 || cy > height) continue;
           const text = R.short(p.m.label, Math.min(40, most)) + p.m.timeMark;
-          const onLeft = x(p.ms) + 12 + 7 * text.length > x.range()[1];
-          const from = onLeft ? x(p.ms) - 12 - 7 * text.length : x(p.ms) + 12;
-          const isFree = (at) => at > 12 && at < y.range()[0] &&
-            !taken.some((t) => Math.abs(t.at - at) < 14 && from < t.to && t.from < from + 7 * text.length);
-          const places = d3.range(60).map((k) => y(p.error) + 4 + 14 * (k % 2 ? -1 : 1) * Math.ceil(k / 2));
-          const at = places.find(isFree) ?? places[0];
-          taken.push({ at, from, to: from + 7 * text.length });
-          d3.select(this).append("text").attr("class", "strong halo").attr("x", onLeft ? -12 : 12)
-            .attr("y", at - y(p.error)).attr("text-anchor", onLeft ? "end" : null).text(text);
-        });
+          const wide = 7 * text.length;
+          const places = d3.range(80).flatMap((k) => {
+            const dy = 13 * (k % 2 ? -1 : 1) * Math.ceil(k / 2);
+            return [[11, dy], [-11 - wide, dy], [-wide / 2, dy]];
+          });
+          const boxes = places.map(([dx, dy]) => ({ left: cx + dx, right: cx + dx + wide, top: cy + dy - 7, bottom: cy + dy + 6 }));
+          const box = boxes.find(isFree);
+          if (!box) continue;
+          taken.push(box);
+          const middle = (box.top + box.bottom) / 2;
+          if (Math.abs(middle - cy) > 18) {
+            group.append("line").attr("x1", cx).attr("y1", cy).attr("x2", Math.max(box.left, Math.min(box.right, cx))).attr("y2", middle < cy ? box.bottom : box.top)
+              .style("stroke", "var(--soft)").style("stroke-width", 0.7);
+          }
+          group.append("text").attr("class", "strong halo").attr("x", box.left).attr("y", box.bottom - 2).text(text);
+        }
       },
     });
     if (all.some((p) => p.m.timeMark)) R.nothing(host, R.scores.stated_note);

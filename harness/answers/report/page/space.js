@@ -108,7 +108,7 @@
       e.preventDefault();
     });
     again();
-    R.methodLegend(host, methods);
+    R.switches(host, s);
     const label = d3.select(host).append("label").attr("class", "field").text("heights ×");
     label.append("input").attr("type", "range").attr("min", 1).attr("max", 20).property("value", view.heightScale)
       .on("input", (e) => { view.heightScale = Number(e.target.value); again(); });

@@ -1,4 +1,4 @@
-// Dispersion over runs: box plots on one sequence, ratios to the baseline with intervals over all.
+// Dispersion over runs: box plots on one sequence, changes to the baseline with intervals over all.
 (() => {
   "use strict";
   const R = window.R;
@@ -17,7 +17,7 @@
       .filter((row) => row.values.length).sort((a, b) => d3.median(a.values) - d3.median(b.values));
     const repeats = d3.max(rows, (row) => row.values.length) || 0;
     R.caption(host, R.kindLabel(kind), `${R.scores.sequences[R.state.sequence]}, ${repeats === 1 ? "one run" : repeats + " repeats"}`);
-    if (!rows.length) return R.nothing(host, "No method has this score.");
+    if (!rows.length) return R.nothing(host, `No ${R.word} has this score.`);
     const all = rows.flatMap((row) => row.values);
     const log = d3.min(all) > 0 && d3.max(all) / d3.min(all) > 20;
     R.chart(host, {
@@ -47,14 +47,14 @@
   const forest = (host) => {
     const kind = R.scores.kinds[R.state.kind];
     const comparison = R.comparison(R.state.kind);
-    R.caption(host, "Ratio to " + (R.baseline ? R.baseline.label : "the baseline"), `${kind.label} rmse, ${kind.times}, all sequences`);
+    R.caption(host, "Change to " + (R.baseline ? R.baseline.label : "the baseline"), `${kind.label} rmse, ${kind.times}, all sequences`);
     const rows = (comparison ? comparison.methods : []).filter((m) => m.ratio !== null);
     if (!rows.length) return R.nothing(host, "No comparison with a baseline for this score.");
     const place = new Map(R.methods.map((m) => [m.name, m.place]));
     const all = rows.flatMap((m) => [m.ratio, ...(m.interval || [])]).concat(1);
     R.chart(host, {
-      label: `Ratio of ${kind.label} to the baseline, with intervals`, height: 60 + rowHeight(rows) * rows.length, margin: { left: left(R.methods) },
-      x: { label: `typical ratio (${kind.better === "higher" ? "right" : "left"} is better)`, domain: R.paddedLog(d3.extent(all)), log: true },
+      label: `Change of ${kind.label} to the baseline, with intervals`, height: 60 + rowHeight(rows) * rows.length, margin: { left: left(R.methods) },
+      x: { label: `typical change [%] (${kind.better === "higher" ? "right" : "left"} is better)`, domain: R.paddedLog(d3.extent(all)), log: true, format: R.change },
       y: { band: rows.map((m) => place.get(m.method)), name: (m) => short(R.methods[m].label) },
       draw: (group, x, y) => {
         group.append("line").attr("class", "zero").attr("x1", x(1)).attr("x2", x(1)).attr("y1", 0).attr("y2", 1e4);
@@ -66,7 +66,7 @@
               .attr("stroke", "currentColor").attr("stroke-width", 3).attr("stroke-linecap", "round");
           }
           g.append("circle").attr("cx", x(m.ratio)).attr("cy", middle).attr("r", 5.5).attr("fill", "currentColor");
-          g.append("title").text(`${m.method}: ${R.number(m.ratio)}` + (m.interval ? ` [${m.interval.map(R.number).join(", ")}]` : "") + `, p = ${R.number(m.p)}, ${m.place === "=" ? "shares the first place" : "significantly worse"}` + (m.fails ? `, fails ${m.fails}` : ""));
+          g.append("title").text(`${m.method}: ${R.change(m.ratio)} %` + (m.interval ? ` [${m.interval.map(R.change).join(", ")}]` : "") + `, p = ${R.number(m.p)}, ${m.place === "=" ? "shares the first place" : "significantly worse"}` + (m.fails ? `, fails ${m.fails}` : ""));
         }
       },
     });

@@ -48,7 +48,6 @@
   });
   const set = (places) => {
     state.shown = new Set(places);
-    boxes.forEach((box, m) => (box.checked = state.shown.has(m)));
     R.changed();
   };
   const button = (text, places) => {
@@ -65,7 +64,8 @@
   R.follow(() => {
     const drawn = R.shown().map((m) => m.label);
     const more = drawn.length > 5 ? ` and ${drawn.length - 5} more` : "";
-    summary.textContent = `Methods drawn (${drawn.length} of ${R.methods.length}): ${drawn.slice(0, 5).join(", ") || "none"}${more}`;
+    summary.textContent = `${R.Word}s drawn (${drawn.length} of ${R.methods.length}): ${drawn.slice(0, 5).join(", ") || "none"}${more}`;
+    boxes.forEach((box, m) => (box.checked = state.shown.has(m)));
     boxes.forEach((box, m) => (box.style.accentColor = state.shown.has(m) ? R.color(m) : ""));
   });
   form.hidden = false;

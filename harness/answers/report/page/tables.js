@@ -43,10 +43,10 @@
   };
   const filter = document.createElement("input");
   filter.type = "search";
-  filter.placeholder = "part of a method's name";
+  filter.placeholder = `part of the name of a ${R.word}`;
   const all = document.createElement("input");
   all.type = "checkbox";
-  label("methods", filter);
+  label(`${R.word}s`, filter);
   label("all sequences", all);
 
   const tables = [...document.querySelectorAll("#scores figure.table")];
