@@ -118,9 +118,8 @@ class Contradictions {
   void check_order() {
     double least = 1e300;
     const auto ratio_of = [&](const Json& m) {
-      return &m == baseline_           ? std::optional(1.0)
-             : m.at("ratio").is_null() ? std::nullopt
-                                       : std::optional(double(m.at("ratio")));
+      if (&m == baseline_) return std::optional(1.0);
+      return m.at("ratio").is_null() ? std::nullopt : std::optional(double(m.at("ratio")));
     };
     for (const auto& [name, m] : by_name_) {
       if (is_first(*m)) least = std::min(least, ratio_of(*m).value_or(0.0));
