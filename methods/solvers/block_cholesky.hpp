@@ -35,6 +35,7 @@ class BlockCholesky {
   /// The pair (i, j) is on the diagonal or in the pairs of the structure.
   Location location(int i, int j) const;
   void set_zero() { ++matrix_; }
+  std::size_t size() const { return static_cast<std::size_t>(values_.size()); }  ///< numbers stored
   void add(const Location& at, const Block& block);
 
   /// Replaces the matrix by its factor; false: it is not positive definite to rounding.
@@ -42,6 +43,15 @@ class BlockCholesky {
 
   /// Replaces the columns of `right`, with D rows per block, by the solutions.
   void solve(Eigen::MatrixXd& right);
+
+  /// Replaces the factor by the inverse of the matrix, where the factor has blocks: each depends
+  /// only on later columns there. Time of factorise(), up to a constant. Source: A. M. Erisman, W.
+  /// F. Tinney, On computing certain elements of the inverse of a sparse matrix, CACM 18(3), 1975.
+  /// Implemented for D = 3 and 6, as inverse_block().
+  void invert();
+
+  /// Block of the inverse after invert().
+  Block inverse_block(const Location& at) const;
 
   /// factorise() with the diagonal multiplied by 1 + `damping`, and solve() of one column.
   /// `diagonal`: its values before, in the order of elimination.
@@ -69,6 +79,7 @@ class BlockCholesky {
   void forward(std::size_t supernode);
   void backward(double* right);
   void add_update(const double* from, std::size_t child, double* panel, double* update);
+  void gather_inverse(const Supernode& of, Eigen::MatrixXd& lower) const;
 
   const EliminationStructure& structure_;
   std::vector<std::size_t> panel_;  ///< offset of the panel of each supernode in values_, and end
