@@ -19,8 +19,9 @@ namespace {
 constexpr double kMost = 36.0;       // chi-squared: six standard deviations
 constexpr double kMostDrift = 0.35;  // of the length of a loop; odometry is better
 
+/// Distance between the positions of the closure's end by itself and by the path [m].
 double gap_of(const LoopPath& path, const Chain& chain) {
-  return path.residual(chain, as_stated).head<3>().norm();
+  return exp_se3(path.residual(chain, as_stated)).translation.norm();
 }
 
 /// Chi-squared over odometry, and the middle one over three closures, of which a false one is
