@@ -57,9 +57,11 @@ inline double covered_share(const Problem& problem,
   }
   double all = 0.0, covered = 0.0;
   int count = 0;
-  for (std::size_t i = 0; i < problem.odometry.size(); ++i) {
-    count += change[i];
-    const double length = problem.odometry[i].from_from_to.translation.norm();
+  auto edge = problem.odometry.begin();
+  for (std::size_t k = 0; edge != problem.odometry.end(); ++k) {
+    count += change[k];
+    if (edge->from != k) continue;  // no odometry from here
+    const double length = (edge++)->from_from_to.translation.norm();
     all += length;
     if (count >= 2) covered += length;
   }

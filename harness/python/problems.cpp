@@ -46,9 +46,7 @@ std::string loops(Problem problem) {
   const py::gil_scoped_release unlocked;
   problem.ids.resize(problem.keyframes.size());
   std::iota(problem.ids.begin(), problem.ids.end(), 0);
-  harness::LoopsResult result = harness::loops(std::move(problem), "problem");
-  harness::add_rejections(result);
-  return harness::json(result);
+  return harness::json(harness::loops(std::move(problem), "problem"));
 }
 
 /// Edges between consecutive keyframes, with the default noise of measured odometry.

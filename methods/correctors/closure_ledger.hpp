@@ -1,79 +1,112 @@
-/// What the loop closures of a chain state about each other: how well each is predicted by the
-/// closures of other places, without a reference.
+/// What the loop closures of a pose graph state about each other: how well each is predicted by
+/// the others, without a reference.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
+#include "methods/correctors/consensus/judgement.hpp"
+#include "methods/correctors/ledger/closure_error.hpp"
 
 namespace loopbench::methods {
 
-/// Error of a closure against a prediction of its relative pose.
-struct ClosureError {
-  double metres = 0.0;
-  double degrees = 0.0;
-  /// Squared Mahalanobis distance per degree of freedom (3 if the problem is planar, else 6) [-].
-  /// The covariance is that of the prediction and of the closure.
-  double chi2 = 0.0;
+/// Change of the keyframes' positions without a closure.
+struct Moves {
+  double rms = 0.0;    ///< [m]
+  double max = 0.0;    ///< [m]
+  std::size_t at = 0;  ///< keyframe of the largest change
 };
 
 struct LedgerRow {
-  std::size_t place = 0;                  ///< of the closure, in the order of closures
-  double loop_length = 0.0;               ///< distance travelled between its keyframes [m]
-  ClosureError in_odometry;               ///< against the odometry alone
-  std::optional<ClosureError> predicted;  ///< by the closures of all other places; unset: none
-  double cost_drop = 0.0;    ///< decrease of chi2 of the joint solution without the closure [-]
-  double moves_rms = 0.0;    ///< change of the keyframes' positions without the closure [m]
-  double moves_max = 0.0;    ///< largest such change [m]
-  std::size_t moves_at = 0;  ///< keyframe of the largest change
+  std::size_t place = 0;                    ///< of the closure, in the order of closures
+  std::optional<double> loop_length;        ///< distance travelled between its keyframes [m]
+  std::optional<ClosureError> in_odometry;  ///< against the odometry alone; unset: it has a gap
+  /// By all closures of other places that agree; unset: they do not determine it.
+  std::optional<ClosureError> predicted;
+  bool is_prediction_solved = false;  ///< by a solution, else to first order at one with it
+  double cost_drop = 0.0;  ///< decrease of chi2 of the solution with all closures without it [-]
+  std::optional<Moves> moves;   ///< unset: not computed, see LedgerSettings
+  bool is_drop_solved = false;  ///< `cost_drop` and `moves` are of a solution without the closure
 };
 
 inline constexpr std::size_t kMinPlaces = 3;  ///< two cannot show which of them is wrong
 
 enum class LedgerVerdict {
-  helps,           ///< the correction probably reduces the error
-  not_shown,       ///< predictions are not better than the odometry
-  few_places,      ///< fewer than three places
-  little_covered,  ///< most of the path lies in loops of fewer than two places
-  contradiction,   ///< a closure contradicts the others
-  covariances,     ///< closures contradict, and most of them the odometry: covariances too small
+  agrees,     ///< all closures agree
+  disagrees,  ///< some closures contradict the others, which agree
+  rival,      ///< two sets contradict each other
+  none,       ///< all contradict the odometry and each other
+  few,        ///< they are too few to check each other
+  unknown,    ///< they could not be judged
 };
+inline auto choices(LedgerVerdict) {
+  return std::array{std::pair{"agrees", LedgerVerdict::agrees},
+                    std::pair{"disagrees", LedgerVerdict::disagrees},
+                    std::pair{"rival", LedgerVerdict::rival},
+                    std::pair{"none", LedgerVerdict::none},
+                    std::pair{"few", LedgerVerdict::few},
+                    std::pair{"unknown", LedgerVerdict::unknown}};
+}
 
-/// Whether closures contradict each other.
+/// Whether closures contradict each other or the odometry.
 inline bool is_contradicted(LedgerVerdict verdict) {
-  return verdict == LedgerVerdict::contradiction || verdict == LedgerVerdict::covariances;
+  return verdict == LedgerVerdict::disagrees || verdict == LedgerVerdict::rival ||
+         verdict == LedgerVerdict::none;
 }
 
 struct ClosureLedger {
   std::vector<LedgerRow> rows;        ///< one per closure of the problem
   std::vector<std::size_t> suspects;  ///< all closures, the most suspicious first
+  std::size_t named = 0;              ///< the first suspects, whose numbers are solved
   std::size_t places = 0;
   std::size_t better_places = 0;  ///< whose prediction has a smaller error than the odometry
   double ratio = 1.0;    ///< geometric mean over places of predicted over odometry's error [-]
   double covered = 0.0;  ///< share of the path inside loops of two or more places [-]
-  /// Median over closures of `in_odometry.chi2`. False closures do not change that of others, so it
-  /// stays near 1 while most closures are true and the covariances are right.
-  double odometry_chi2 = 0.0;
-  LedgerVerdict verdict = LedgerVerdict::few_places;
+  /// The closures of a place are predicted so much better by the others than by the odometry that
+  /// the correction probably reduces the error.
+  bool helps = false;
+  std::optional<ClosureJudgement> judgement;  ///< unset: `why_unknown`
+  std::string why_unknown;
+  LedgerVerdict verdict = LedgerVerdict::unknown;
+
+  ClosureFinding finding(std::size_t closure) const {
+    const bool is_decided = judgement && judgement->is_decided();
+    return is_decided ? judgement->closures[closure].finding : ClosureFinding::unchecked;
+  }
 };
 
-/// Returns why closure_ledger() does not apply, or an empty text: anchors, edges that change the
-/// scale, an odometry that is no complete chain, no closures or more than 1,000.
+struct LedgerSettings {
+  /// Called with the work that begins.
+  std::function<void(const std::string&)> progress = [](const std::string&) {};
+  std::size_t named = 3;  ///< suspects that are solved without; one of more than 2,000 closures
+  /// Moves of all closures are computed up to this number of closures times keyframes; beyond it,
+  /// of the 20 most suspicious.
+  std::size_t all_moves = 500'000;
+};
+
+/// Returns why closure_ledger() does not apply, or an empty text: edges that change the scale,
+/// keyframes that are not connected, no closures.
 std::string why_no_ledger(const Problem& problem);
 
-/// Computes the ledger from one joint solution (looped_chain.hpp). With M = A S A' + S_L and
-/// multipliers lambda at the solution, the closures of a place p have the error
-/// ((M^-1)_pp)^-1 lambda_p against a solution without them, with covariance ((M^-1)_pp)^-1. This is
-/// exact for linear loops. Two closures belong to one place if both their ends are within 20
-/// keyframes along the path, directly or through others (single linkage).
+/// Judges the closures (judge_closures()) and computes the ledger, with the stated covariances.
 ///
-/// Limits of the verdicts were chosen on KITTI, MulRan, wheel and flight data, see
-/// results/methods/loops.md. Errors that all closures share are not visible. Requires
-/// why_no_ledger() to be empty. Throws std::runtime_error if the joint solution fails.
-/// O(closures keyframes + (6 closures)^3) time, O((6 closures)^2) memory.
-ClosureLedger closure_ledger(const Problem& problem);
+/// Predictions are those of the solution with the closures that agree, if the judgement decides,
+/// else with all: of a closure in it, without those of its place (closure_parts()), to first order;
+/// of others by the solution itself. `cost_drop` and `moves` compare the solution with all closures
+/// with that without the closure: solved for the first suspects if closures contradict each other,
+/// else to first order. Anchors take part in all solutions, and not in the judgement unless it uses
+/// them. Errors that all closures share are not visible. Requires why_no_ledger() to be empty.
+/// Throws std::runtime_error if a solution fails. A few factorisations of the graph, and one for
+/// each named suspect.
+ClosureLedger closure_ledger(const Problem& problem, const LedgerSettings& settings = {});
+
+/// The problem with the closures that agree and freed steps, with the stated covariances; all
+/// closures, if nothing is decided.
+Problem trusted_problem(const Problem& problem, const ClosureLedger& ledger);
 
 }  // namespace loopbench::methods

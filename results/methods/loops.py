@@ -19,7 +19,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 PROGRAM = os.environ.get("LOOPBENCH_PROGRAM", "loopbench")
 SHARES = (0.0, 0.1, 0.2, 0.5)  # of false closures
 SIZES = (5, 20)  # numbers of true closures
-VERDICTS = ("helps", "not_shown", "little_covered", "few_places", "contradiction", "covariances")
+VERDICTS = ("helps", "not_shown", "few", "unknown", "disagrees", "rival", "none")
 
 
 def chains(data):
@@ -125,6 +125,13 @@ def ate(reference, poses):
     return loopbench.score(loopbench.evaluate(reference, poses, metrics=["ate"], diagnose=False), "ate")
 
 
+def verdict(found):
+    """The verdict, and of closures that agree whether the correction helps."""
+    if found["verdict"] != "agrees":
+        return found["verdict"]
+    return "helps" if found["helps"] else "not_shown"
+
+
 def study(data):
     """Kind, change, verdict, ratio of ATE, predicted ratio, ranks of false closures of each case."""
     for number, (kind, dataset, options) in enumerate(chains(data)):
@@ -137,7 +144,7 @@ def study(data):
                 found = loopbench.loops(changed)
                 ratio = ate(reference, loopbench.correct(changed, "dual")[0]) / raw
                 is_false = [(row["from"], row["to"]) not in true for row in found["closures"]]
-                yield kind, change, found["verdict"], ratio, found["ratio"], is_false
+                yield kind, change, verdict(found), ratio, found["ratio"], is_false
 
 
 def group(kind):
@@ -202,7 +209,7 @@ def draw(results, file):
 
     _, axes = plt.subplots(figsize=(5, 3.2))
     clean = [each for each in results if each[1] == "none false" and each[4]]
-    for verdict, colour in zip(VERDICTS, ("C0", "C1", "C2", "0.7", "C3", "C4")):
+    for verdict, colour in zip(VERDICTS, ("C0", "C1", "C2", "0.7", "C3", "C4", "C5")):
         points = [(each[4], each[3]) for each in clean if each[2] == verdict]
         if points:
             axes.plot(*zip(*points), "o", ms=3, color=colour, label=verdict)

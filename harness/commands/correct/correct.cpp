@@ -109,9 +109,7 @@ void hold_first_fixed(Correction& done) {
 void write_ledger(const CorrectArguments& a, Correction& done) {
   std::string rows;
   try {
-    LoopsResult all = loops(done.problem, a.estimate);
-    add_rejections(all);
-    rows = csv(all);
+    rows = csv(loops(done.problem, a.estimate));
   } catch (const std::runtime_error& error) {  // no ledger, or the joint solution fails
     done.report.notes.push_back(fmt::format("{} is not written: {}", a.ledger, error.what()));
   }

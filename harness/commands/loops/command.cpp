@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -20,17 +21,36 @@ struct LoopsCommand {
   std::string csv;
   std::filesystem::path plot;
   FigureOptions figure;
+  std::string repaired;
+  bool next = false;
   bool json = false;
 };
 
+/// Shows the work on a terminal, in one line.
+void show_progress(const std::string& work) {
+  if (isatty(STDERR_FILENO) != 1) return;
+  fmt::print(stderr, "\r\033[K{}{}", work, work.empty() ? "" : " ...");
+  std::fflush(stderr);
+}
+
 int run_loops(const LoopsCommand& a) {
   constexpr std::size_t kMostRows = 20;  // of a table that fits a screen
-  LoopsResult result = loops(load_problem(a.input, catalogue({})), a.input.estimate);
-  add_rejections(result);
+  Provenance provenance;
+  Problem problem = load_problem(a.input, catalogue({}), &provenance);
+  const LoopsResult result = loops(std::move(problem), a.input.estimate, show_progress);
+  std::optional<methods::NextClosures> next;
+  if (a.next) {
+    show_progress("searching places for one more closure");
+    next = next_closures(result);
+  }
+  show_progress("");
   std::FILE* const out = is_dash(a.csv) ? stderr : stdout;  // rows are on stdout
-  fmt::print(out, "{}", a.json ? json(result) : fitted_lines(printable(text(result, kMostRows))));
+  fmt::print(out,
+             "{}",
+             a.json ? json(result, next) : fitted_lines(printable(text(result, kMostRows, next))));
   if (!a.csv.empty()) write_file(a.csv, csv(result));
   if (!a.plot.empty()) draw_map(loops_figure(result), a.plot, a.figure);
+  if (!a.repaired.empty()) write_repaired(result, provenance, a.repaired);
   return is_contradicted(result.ledger.verdict) ? kExitNotShown : kExitOk;
 }
 
@@ -41,6 +61,21 @@ void add_loops(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "loops", "Check each loop closure by the closures of other places, without a reference");
   declare_problem(*command, a->input);
+  reads(*command,
+        add(*command,
+            "--anchors FILE",
+            a->input.anchors,
+            "Measured positions: stamp x y z [sigma, or xx xy xz yy yz zz of the covariance], or "
+            "any format of a reference"));
+  writes(*command,
+         add(*command,
+             "-o,--out FILE",
+             a->repaired,
+             "Write a g2o graph with the closures that agree; steps of the odometry that are wrong "
+             "have a lower information"),
+         FileKind::trajectory);
+  command->add_flag(
+      "--next", a->next, "Print where one more closure would determine the positions best");
   writes(*command,
          add(*command, "--csv FILE", a->csv, "Write one row per closure; - is standard output"),
          FileKind::printed);

@@ -3,22 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <string_view>
 #include <utility>
 
 #include "datasets/core/error.hpp"
-#include "harness/commands/correct/correct.hpp"
-#include "harness/sweep/catalogue/catalogue.hpp"
-#include "harness/sweep/catalogue/external_methods.hpp"
+#include "datasets/derive/problem_graph.hpp"
+#include "datasets/files/text_writer.hpp"
 
 namespace loopbench::harness {
 
-LoopsResult loops(Problem problem, std::string estimate) {
+LoopsResult loops(Problem problem,
+                  std::string estimate,
+                  const std::function<void(const std::string&)>& progress) {
   if (const std::string why = methods::why_no_ledger(problem); !why.empty()) {
     throw InputError(estimate + ": " + why);
   }
   LoopsResult out{std::move(estimate), std::move(problem), {}};
+  methods::LedgerSettings settings;
+  if (progress) settings.progress = progress;
   try {
-    out.ledger = methods::closure_ledger(out.problem);
+    out.ledger = methods::closure_ledger(out.problem, settings);
   } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -27,18 +32,43 @@ LoopsResult loops(Problem problem, std::string estimate) {
   return out;
 }
 
-void add_rejections(LoopsResult& result) {
-  const Catalogue known = catalogue({});
-  for (const std::string name : {"pose_graph_pcm", "pose_graph_gnc_tls"}) {
-    const auto method = make_method(method_without_reference(name, known), known, {});
-    if (!methods::reason_to_decline(*method, result.problem).empty()) continue;
-    methods::Report report;
-    try {
-      method->estimate(result.problem, report);
-      if (report.rejected) result.rejected[name] = *report.rejected;
-    } catch (const std::runtime_error&) {  // a failed method rejects nothing
-    }
+methods::NextClosures next_closures(const LoopsResult& result) {
+  try {
+    return methods::next_closures(methods::trusted_problem(result.problem, result.ledger));
+  } catch (const std::runtime_error& error) {
+    throw InputError(result.estimate + ": no covariances of the positions: " + error.what());
   }
+}
+
+void write_repaired(const LoopsResult& result,
+                    const Provenance& provenance,
+                    const std::filesystem::path& file) {
+  const methods::ClosureLedger& ledger = result.ledger;
+  const auto fail = [&](const std::string& why) {
+    return InputError(file.string() + " is not written: " + why);
+  };
+  if (!ledger.judgement || !ledger.judgement->is_decided()) {
+    throw fail("which closures are right is not decided");
+  }
+  if (!result.problem.anchors.empty()) throw fail("a g2o graph contains no anchors");
+  const Problem trusted = methods::trusted_problem(result.problem, ledger);
+  PoseGraph graph = problem_graph(trusted, result.problem.keyframes, result.problem.ids);
+  std::erase_if(graph.edges, [&](const Edge& edge) {
+    return std::ranges::any_of(provenance.held, [&](const Edge& held) {
+      return edge.from == held.from && edge.to == held.to &&
+             edge.information.isApprox(held.information);
+    });
+  });
+  graph.fixed = provenance.fixed;
+  TextWriter out = g2o_text(graph);
+  for (std::size_t rank = 0; rank < ledger.suspects.size(); ++rank) {
+    if (std::string_view(judgement(result, rank)) == "agrees") continue;
+    out.comment("dropped: " + closure_name(result.problem, ledger.suspects[rank]));
+  }
+  for (const methods::FreedStep& step : ledger.judgement->steps) {
+    out.comment("freed: " + step_name(result.problem, step.from));
+  }
+  out.save(file);
 }
 
 FigureData loops_figure(const LoopsResult& result) {
@@ -47,10 +77,10 @@ FigureData loops_figure(const LoopsResult& result) {
   add_poses(out.curves[0], result.problem.keyframes, 0.0);
   std::map<std::string, DrawnCurve> kinds{
       // drawn in this order
-      {"confirmed",
-       {.name = "closures that the others confirm", .style = 2, .dash = 1, .is_thin = true}},
-      {"doubtful", {.name = "doubtful closures", .style = 4, .dash = 1, .is_thin = true}},
-      {"suspicious", {.name = "most suspicious closures", .style = 3, .dash = 1, .is_thin = true}},
+      {"agrees", {.name = "closures that agree", .style = 2, .dash = 1, .is_thin = true}},
+      {"unchecked",
+       {.name = "closures that cannot be checked", .style = 4, .dash = 1, .is_thin = true}},
+      {"disagrees", {.name = "closures that disagree", .style = 3, .dash = 1, .is_thin = true}},
   };
   for (std::size_t rank = 0; rank < result.ledger.suspects.size(); ++rank) {
     DrawnCurve& curve = kinds.at(judgement(result, rank));

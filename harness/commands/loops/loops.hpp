@@ -1,25 +1,45 @@
 /// The command `loops`: what the loop closures of one file state about each other.
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 
+#include "datasets/core/sequence.hpp"
 #include "harness/answers/report/draw.hpp"
 #include "harness/sweep/model/loops.hpp"
+#include "methods/correctors/ledger/next_closures.hpp"
 
 namespace loopbench::harness {
 
 /// Computes the ledger of a problem. Throws InputError with `estimate` if it does not apply.
-LoopsResult loops(Problem problem, std::string estimate);
+/// `progress`: called with the work that begins.
+LoopsResult loops(Problem problem,
+                  std::string estimate,
+                  const std::function<void(const std::string&)>& progress = {});
 
-/// Runs pose_graph_pcm and pose_graph_gnc_tls, unless they decline or fail, for `rejected`.
-void add_rejections(LoopsResult& result);
+/// Where one more closure would help most, in the solution with the closures that agree. Throws
+/// InputError if the solver finds none.
+methods::NextClosures next_closures(const LoopsResult& result);
 
-/// The verdict and a table of the closures, the most suspicious first, at most `rows`.
-std::string text(const LoopsResult& result, std::size_t rows);
+/// The verdict and a table of the closures, the most suspicious first, at most `rows`, in 80
+/// columns; then `next`.
+std::string text(const LoopsResult& result,
+                 std::size_t rows,
+                 const std::optional<methods::NextClosures>& next = {});
 
-/// Object with keys verdict, sentence, places, better_places, ratio, covered and closures, the rows
-/// of csv().
-std::string json(const LoopsResult& result);
+/// Object with keys verdict, helps, sentence, places, better_places, ratio, covered, steps [{from,
+/// to, metres, degrees, inflation or null}], closures, the rows of csv(), and next {deviation,
+/// closures [{from, to, metres, deviation}]} if it is given.
+std::string json(const LoopsResult& result, const std::optional<methods::NextClosures>& next = {});
+
+/// Writes the graph with the closures that agree and with freed steps, whose information is lower;
+/// comments name them and the closures that were dropped. Throws InputError if nothing is decided,
+/// or if there are anchors, and if the file cannot be written.
+void write_repaired(const LoopsResult& result,
+                    const Provenance& provenance,
+                    const std::filesystem::path& file);
 
 /// Map of the keyframes with the closures coloured by what the others state about them.
 FigureData loops_figure(const LoopsResult& result);

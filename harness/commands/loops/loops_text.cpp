@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "datasets/core/fields.hpp"
 #include "harness/commands/loops/loops.hpp"
 #include "harness/sweep/text/counted.hpp"
 
@@ -14,15 +15,7 @@ using Json = nlohmann::ordered_json;
 using methods::ClosureLedger;
 using methods::LedgerRow;
 
-/// Robust methods, and which closures they reject.
-const std::map<std::string, const char*> kRobust{
-    {"pose_graph_pcm", "not in the largest set of closures that are consistent in pairs"},
-    {"pose_graph_gnc_tls", "residual too large for its covariance after the correction"},
-};
-
-/// Of LedgerVerdict, in its order.
-constexpr const char* kWords[] = {
-    "helps", "not_shown", "few_places", "little_covered", "contradiction", "covariances"};
+constexpr std::size_t kWidest = 13;  // name of a closure in a row of 80 columns
 
 /// Numbers, words, or null without a prediction.
 Json row_json(const LoopsResult& result, std::size_t rank) {
@@ -38,78 +31,144 @@ Json row_json(const LoopsResult& result, std::size_t rank) {
   return out;
 }
 
+/// Id or stamp.
+Json keyframe_json(const Problem& problem, std::size_t keyframe) {
+  if (!problem.ids.empty()) return problem.ids[keyframe];
+  return shown_stamp(problem.keyframes[keyframe].stamp);
+}
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json steps_json(const LoopsResult& result) {
+  Json out = Json::array();
+  if (!result.ledger.judgement) return out;
+  for (const methods::FreedStep& step : result.ledger.judgement->steps) {
+    out.push_back({{"from", keyframe_json(result.problem, step.from)},
+                   {"to", keyframe_json(result.problem, step.from + 1)},
+                   {"metres", finite(step.metres)},
+                   {"degrees", finite(step.degrees)},
+                   {"inflation", finite(step.inflation)}});
+  }
+  return out;
+}
+
+Json next_json(const LoopsResult& result, const methods::NextClosures& next) {
+  Json closures = Json::array();
+  for (const methods::NextClosure& each : next.found) {
+    closures.push_back({{"from", keyframe_json(result.problem, each.from)},
+                        {"to", keyframe_json(result.problem, each.to)},
+                        {"metres", each.metres},
+                        {"deviation", each.deviation}});
+  }
+  return {{"deviation", next.deviation}, {"closures", closures}};
+}
+
+/// The names are wider than a column: they have a line of their own.
+bool has_wide_names(const LoopsResult& result, std::size_t shown) {
+  return std::any_of(
+      result.ledger.suspects.begin(),
+      result.ledger.suspects.begin() + static_cast<std::ptrdiff_t>(shown),
+      [&](std::size_t k) { return closure_name(result.problem, k).size() > kWidest; });
+}
+
+/// A number of 9 columns, marked if it is linearised.
+std::string marked(double value, bool is_solved) {
+  return fmt::format("{:>9}", (is_solved ? "" : "~") + plain_number(value));
+}
+
+std::string row_text(const LoopsResult& result, std::size_t rank, bool is_wide) {
+  const std::size_t k = result.ledger.suspects[rank];
+  const LedgerRow& row = result.ledger.rows[k];
+  const std::string name = closure_name(result.problem, k);
+  std::string out = is_wide ? name + "\n" + std::string(kWidest, ' ') : fmt::format("{:<13}", name);
+  out += fmt::format(" {:<9}", judgement(result, rank));
+  if (row.in_odometry) {
+    out += fmt::format(" {:>7} {:>5}",
+                       plain_number(row.in_odometry->metres),
+                       plain_number(row.in_odometry->degrees));
+  } else {
+    out += fmt::format(" {:>7} {:>5}", "-", "-");
+  }
+  if (row.predicted) {
+    out += marked(row.predicted->metres, row.is_prediction_solved);
+    out += fmt::format(" {:>5} {:>5}",
+                       plain_number(row.predicted->degrees),
+                       plain_number(std::sqrt(row.predicted->chi2)));
+  } else {
+    out += fmt::format("{:>9} {:>5} {:>5}", "-", "-", "-");
+  }
+  out += row.moves ? marked(row.moves->rms, row.is_drop_solved) : fmt::format("{:>9}", "-");
+  return out + marked(row.cost_drop, row.is_drop_solved) + "\n";
+}
+
+std::string next_text(const LoopsResult& result, const methods::NextClosures& next) {
+  if (next.found.empty())
+    return "No further closure is possible between keyframes that are near.\n";
+  std::string out = fmt::format(
+      "Standard deviation of the positions: {} m (rms, as stated). With one more closure:\n",
+      plain_number(next.deviation));
+  for (const methods::NextClosure& each : next.found) {
+    out += fmt::format("{} -> {}: {} m ({} m apart)\n",
+                       keyframe_json(result.problem, each.from).dump(),
+                       keyframe_json(result.problem, each.to).dump(),
+                       plain_number(each.deviation),
+                       plain_number(each.metres));
+  }
+  return out + "\n";
+}
+
 }  // namespace
 
-std::string text(const LoopsResult& result, std::size_t rows) {
+std::string text(const LoopsResult& result,
+                 std::size_t rows,
+                 const std::optional<methods::NextClosures>& next) {
   const ClosureLedger& ledger = result.ledger;
-  std::size_t width = 7;
   const std::size_t shown = std::min(rows, ledger.suspects.size());
-  for (std::size_t i = 0; i < shown; ++i) {
-    width = std::max(width, closure_name(result.problem, ledger.suspects[i]).size());
-  }
+  const bool is_wide = has_wide_names(result, shown);
   std::string out = fmt::format("{}: {}, {}, {}\n\n{}\n\n",
                                 result.estimate,
                                 counted(result.problem.keyframes.size(), "keyframe"),
                                 counted(ledger.rows.size(), "closure"),
                                 counted(ledger.places, "place"),
                                 verdict_text(result));
-  const std::string space(width - 7, ' ');
-  const std::string units = "       [m]  [deg]   [sd]";
-  out += space +
-         "                  loop  against odometry        against other places       moves"
-         "     chi2\nclosure" +
-         space + " place      [m]" + units + units + "   rms [m]     drop" +
-         (result.rejected.empty() ? "" : "  rejected by") + "\n";
-  for (std::size_t i = 0; i < shown; ++i) {
-    const LedgerRow& row = ledger.rows[ledger.suspects[i]];
-    out += fmt::format("{:<{}} {:>5} {:>8.1f}",
-                       closure_name(result.problem, ledger.suspects[i]),
-                       width,
-                       row.place + 1,
-                       row.loop_length);
-    const auto add = [&](const methods::ClosureError& e) {
-      out += fmt::format(
-          "  {:>8.3f} {:>6.2f} {:>6}", e.metres, e.degrees, plain_number(std::sqrt(e.chi2)));
-    };
-    add(row.in_odometry);
-    if (row.predicted) add(*row.predicted);
-    if (!row.predicted) out += fmt::format("  {:>8} {:>6} {:>6}", "-", "-", "-");
-    out += fmt::format("  {:>8.3f} {:>8}", row.moves_rms, plain_number(row.cost_drop));
-    for (const auto& [method, rejected] : result.rejected) {
-      if (std::ranges::count(rejected, ledger.suspects[i]) > 0) out += "  " + method;
-    }
-    out += "\n";
-  }
+  out +=
+      "                            odometry          other places        without it\n"
+      "closure       judgement     [m] [deg]      [m] [deg]  [sd]   moves     chi2\n";
+  for (std::size_t rank = 0; rank < shown; ++rank) out += row_text(result, rank, is_wide);
   if (shown < ledger.suspects.size()) {
     out += fmt::format("{} more: --csv FILE\n", ledger.suspects.size() - shown);
   }
   out += "\n";
-  for (const auto& [method, rejected] : result.rejected) {
-    if (rejected.empty()) continue;
-    out += fmt::format(
-        "{} rejects {}: {}.\n", method, counted(rejected.size(), "closure"), kRobust.at(method));
-  }
+  if (next) out += next_text(result, *next);
   out +=
-      "place: closures that join the same two stretches of the path; [sd]: error in standard "
-      "deviations; moves: change of the trajectory without the closure; chi2 drop: decrease of the "
-      "cost without it\n"
+      "odometry: distance and angle between the closure and the odometry between its keyframes\n"
+      "other places: the same to the solution with all that agree, but no closure within 20 "
+      "keyframes of both ends; [sd]: in stated standard deviations\n"
+      "without it: change of the positions [m] (rms), and decrease of chi2, if all closures but "
+      "this one are used\n"
+      "~: to first order at the solution with it; -: not determined, or not computed; other "
+      "numbers "
+      "are of solutions\n"
       "Errors that all closures share (lever arm, bias) are not visible here.\n";
   return out;
 }
 
-std::string json(const LoopsResult& result) {
+std::string json(const LoopsResult& result, const std::optional<methods::NextClosures>& next) {
   const ClosureLedger& ledger = result.ledger;
   Json out{{"estimate", result.estimate},
-           {"verdict", kWords[static_cast<std::size_t>(ledger.verdict)]},
+           {"verdict", to_text(ledger.verdict)},
+           {"helps", ledger.helps},
            {"sentence", verdict_text(result)},
            {"places", ledger.places},
            {"better_places", ledger.better_places},
-           {"ratio", ledger.places > 1 ? Json(ledger.ratio) : nullptr},
+           {"ratio", ledger.places > 1 ? finite(ledger.ratio) : Json()},
            {"covered", ledger.covered},
+           {"steps", steps_json(result)},
            {"closures", Json::array()}};
   for (std::size_t rank = 0; rank < ledger.suspects.size(); ++rank) {
     out["closures"].push_back(row_json(result, rank));
   }
+  if (next) out["next"] = next_json(result, *next);
   return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

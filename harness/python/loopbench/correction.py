@@ -137,13 +137,13 @@ def loops(problem: Problem) -> dict[str, Any]:
 
     Returns what `loopbench loops --json` prints: the verdict with a sentence, and one dictionary per
     closure, the most suspicious first; `from`, `to` and `moves_max_at` are indices of keyframes.
-    Raises ValueError if the problem has no closures, or more than 1,000, or edges that change the
+    Raises ValueError if the problem has no closures, is not connected, or has edges that change the
     scale.
 
     >>> problem, reference = load("simulated", path="room", keyframes=40)
     >>> found = loops(problem)
     >>> found["verdict"], found["places"], found["closures"][0]["to"]
-    ('few_places', 1, 39)
+    ('agrees', 1, 39)
     """
     found: dict[str, Any] = json.loads(interruptible(_core.loops, core_of(problem)))
     return found

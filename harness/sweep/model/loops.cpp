@@ -31,57 +31,139 @@ std::string keyframe_name(const Problem& problem, std::size_t keyframe) {
   return decimal(shown_stamp(problem.keyframes[keyframe].stamp));
 }
 
+/// "9.40 m and 179 deg from the prediction by the others; chi2 falls by 20594 without it".
+std::string error_text(const LedgerRow& row) {
+  std::string out;
+  if (row.predicted) {
+    out = fmt::format("{} m and {} deg from its prediction by the others",
+                      plain_number(row.predicted->metres),
+                      plain_number(row.predicted->degrees));
+  } else if (row.in_odometry) {
+    out = fmt::format("{} m and {} deg from the odometry",
+                      plain_number(row.in_odometry->metres),
+                      plain_number(row.in_odometry->degrees));
+  }
+  if (!row.is_drop_solved) return out;
+  return out + fmt::format("{}chi2 falls by {} without it",
+                           out.empty() ? "" : "; ",
+                           plain_number(row.cost_drop));
+}
+
+/// The first suspects with their errors, and how many follow of `count`.
+std::string suspects_text(const LoopsResult& result, std::size_t count) {
+  constexpr std::size_t kNamed = 3;
+  std::string out;
+  const std::size_t shown = std::min(count, kNamed);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::size_t k = result.ledger.suspects[i];
+    if (i > 0) out += ", then ";
+    out += closure_name(result.problem, k);
+    const std::string error = error_text(result.ledger.rows[k]);
+    if (!error.empty()) out += " (" + error + ")";
+  }
+  return count > shown ? out + fmt::format(", and {} more", count - shown) : out;
+}
+
 std::string places_text(const ClosureLedger& ledger) {
-  return fmt::format(
-      "{} places, each predicted from the others: typically {:.2f} of the odometry's error ({} of "
-      "{} better); {:.0f} % of the path lies in loops of two places.",
+  if (ledger.places < 2) {
+    return "All are at one place, so that no other place predicts them: whether the correction "
+           "helps cannot be shown.";
+  }
+  const std::string out = fmt::format(
+      "{} places, each predicted from the others: typically {} of the odometry's error "
+      "({} of {} better); {:.0f} % of the path lies in loops of two places. ",
       ledger.places,
-      ledger.ratio,
+      plain_number(ledger.ratio),
       ledger.better_places,
       ledger.places,
       100.0 * ledger.covered);
+  return out + (ledger.helps
+                    ? "The correction probably helps; by how much is not known."
+                    : "Whether the correction helps cannot be shown: closures at more places, on "
+                      "more of the path, would show it.");
 }
 
-std::string few_places_text(const ClosureLedger& ledger) {
-  std::string out = fmt::format(
-      "{} at {}. Whether the correction helps cannot be shown: closures at three or more places "
-      "are needed to check each by the others.",
-      counted(ledger.rows.size(), "closure"),
-      counted(ledger.places, "place"));
-  constexpr double kFar = 10.0;  // chi2 per degree of freedom
-  if (ledger.odometry_chi2 > kFar) {
-    out += fmt::format(
-        " The median distance of closures from the odometry is {} standard deviations: its "
-        "covariances are too small, or closures are false.",
-        plain_number(std::sqrt(ledger.odometry_chi2)));
+std::string steps_text(const LoopsResult& result) {
+  std::string out;
+  for (const methods::FreedStep& step : result.ledger.judgement->steps) {
+    out += fmt::format("{}{} ({} m, {} deg)",
+                       out.empty() ? " Steps of the odometry that are wrong: " : ", ",
+                       step_name(result.problem, step.from),
+                       plain_number(step.metres),
+                       plain_number(step.degrees));
   }
+  return out.empty() ? out : out + "; `correct` frees them.";
+}
+
+std::string disagreement_text(const LoopsResult& result) {
+  const ClosureLedger& ledger = result.ledger;
+  const std::size_t all = ledger.rows.size(), agreeing = ledger.judgement->agreeing;
+  std::string out;
+  if (agreeing < all) {
+    out = fmt::format("{} of {} {} with the {} that agree: {}. `correct` drops {}.",
+                      all - agreeing,
+                      counted(all, result.is_kept ? "kept closure" : "closure"),
+                      all - agreeing == 1 ? "disagrees" : "disagree",
+                      agreeing,
+                      suspects_text(result, all - agreeing),
+                      all - agreeing == 1 ? "it" : "them");
+  }
+  out += steps_text(result);
+  if (out.starts_with(' ')) out.erase(0, 1);
+  if (ledger.helps) out += " With the others, the correction probably helps.";
   return out;
 }
 
-std::string contradiction_text(const LoopsResult& result) {
+std::string unchecked_text(const LoopsResult& result) {
   const ClosureLedger& ledger = result.ledger;
-  const LedgerRow& first = ledger.rows[ledger.suspects.front()];
-  const std::string suspects =
-      fmt::format("{} ({} standard deviations from the odometry; chi2 is {} lower without it)",
-                  closure_name(result.problem, ledger.suspects.front()),
-                  plain_number(std::sqrt(first.in_odometry.chi2)),
-                  plain_number(first.cost_drop)) +
-      ", then " + closure_name(result.problem, ledger.suspects.at(1));
-  if (ledger.places < methods::kMinPlaces) {
-    return "Odometry and closures disagree, most at " + suspects +
-           ". With closures at fewer than three places it cannot be known whether these, the "
-           "odometry (its scale) or the stated covariances are wrong, see loopbench doctor. Do not "
-           "use the correction.";
+  const std::string count = counted(ledger.rows.size(), "closure");
+  if (ledger.verdict == LedgerVerdict::unknown) {
+    return count + " cannot be checked: " + ledger.why_unknown + ".";
   }
-  const std::string out = fmt::format(
-      "{} contradict each other: most suspicious is {}. Do not {}.",
-      result.is_kept ? "The closures that were kept" : "Closures",
+  const std::size_t more = ledger.judgement->more_needed;
+  const std::string remedy =
+      more > 0 ? fmt::format(" About {} that agree, at other places, would decide.",
+                             counted(more, "further closure"))
+               : " Closures at other places would decide.";
+  if (ledger.verdict == LedgerVerdict::few) {
+    return fmt::format(
+        "{} cannot be checked: too few to confirm each other.{} `correct` moves "
+        "nothing, unless they are trusted.",
+        count,
+        remedy);
+  }
+  const std::string suspects = suspects_text(result, std::min<std::size_t>(2, ledger.rows.size()));
+  if (ledger.verdict == LedgerVerdict::rival) {
+    return fmt::format(
+        "Two sets of closures contradict each other, and neither is clearly "
+        "likelier; most suspicious: {}.{} `correct` moves nothing.",
+        suspects,
+        remedy);
+  }
+  return fmt::format(
+      "Odometry and closures contradict each other, most at {}. No closure confirms "
+      "another: whether they, the odometry (its scale) or the stated covariances are "
+      "wrong cannot be known (see loopbench doctor).{} `correct` moves nothing.",
       suspects,
-      result.is_kept ? "use this correction" : "correct with all closures; try pose_graph_pcm");
-  if (ledger.verdict == LedgerVerdict::contradiction) return out;
-  return out +
-         " Most closures contradict the odometry, too: either the stated covariances are too small "
-         "or most closures are false (see loopbench doctor).";
+      remedy);
+}
+
+/// Closures that agree, but that nothing at another place predicts.
+std::string unpredicted_text(const LoopsResult& result) {
+  const ClosureLedger& ledger = result.ledger;
+  if (ledger.places < 2) return "";
+  std::string first;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < ledger.rows.size(); ++k) {
+    if (ledger.rows[k].predicted) continue;
+    if (count++ == 0) first = closure_name(result.problem, k);
+  }
+  if (count == 0) return "";
+  return fmt::format(
+      " {} cannot be checked by other places (first {}): without its place the "
+      "keyframes are not connected; a closure between them elsewhere would do.",
+      counted(count, "closure"),
+      first);
 }
 
 }  // namespace
@@ -102,29 +184,34 @@ std::string plain_number(double value) {
   return fmt::format("{:.{}f}", value, decimals);
 }
 
+std::string step_name(const Problem& problem, std::size_t from) {
+  return keyframe_name(problem, from) + " -> " + keyframe_name(problem, from + 1);
+}
+
 std::string verdict_text(const LoopsResult& result) {
   const ClosureLedger& ledger = result.ledger;
-  if (methods::is_contradicted(ledger.verdict)) return contradiction_text(result);
-  if (ledger.verdict == LedgerVerdict::few_places) return few_places_text(ledger);
-  const std::string places = places_text(ledger);
-  if (ledger.verdict == LedgerVerdict::helps) {
-    return places + " The correction probably helps; by how much is not known.";
+  if (ledger.verdict == LedgerVerdict::disagrees) {
+    return disagreement_text(result) + unpredicted_text(result);
   }
-  return places + " Whether the correction helps cannot be shown: " +
-         (ledger.verdict == LedgerVerdict::little_covered
-              ? "at least 30 % would be needed, from closures at other places."
-              : "the others do not predict a place clearly better than the odometry does.");
+  if (ledger.verdict != LedgerVerdict::agrees) return unchecked_text(result);
+  const std::string all =
+      ledger.rows.size() == 1
+          ? "The closure agrees with the odometry. "
+          : fmt::format("All {} agree. ", counted(ledger.rows.size(), "closure"));
+  return all + places_text(ledger) + unpredicted_text(result);
 }
 
 const char* judgement(const LoopsResult& result, std::size_t rank) {
-  constexpr double kConfirmed = 3.0, kContradiction = 10.0;  // chi2 per degree of freedom
-  const LedgerRow& row = result.ledger.rows[result.ledger.suspects[rank]];
-  const double without = row.cost_drop / (result.problem.planar ? 3.0 : 6.0);
-  const double chi2 = std::max(row.predicted ? row.predicted->chi2 : 0.0, without);
-  // A false closure makes true ones contradict the others, but not the odometry.
-  const bool is_far = std::min(chi2, row.in_odometry.chi2) > kContradiction;
-  if (methods::is_contradicted(result.ledger.verdict) && (rank < 2 || is_far)) return "suspicious";
-  return row.predicted && chi2 <= kConfirmed ? "confirmed" : "doubtful";
+  switch (result.ledger.finding(result.ledger.suspects[rank])) {
+    case methods::ClosureFinding::agrees:
+      return "agrees";
+    case methods::ClosureFinding::contradicts:
+    case methods::ClosureFinding::slipped:
+      return "disagrees";
+    case methods::ClosureFinding::unchecked:
+      break;
+  }
+  return "unchecked";
 }
 
 std::vector<std::pair<std::string, std::string>> ledger_row(const LoopsResult& result,
@@ -138,7 +225,7 @@ std::vector<std::pair<std::string, std::string>> ledger_row(const LoopsResult& r
       {"from", keyframe_name(result.problem, edge.from)},
       {"to", keyframe_name(result.problem, edge.to)},
       {"place", std::to_string(row.place + 1)},
-      {"loop_m", number(row.loop_length)}};
+      {"loop_m", row.loop_length ? number(*row.loop_length) : ""}};
   const auto add = [&](const std::string& prefix,
                        const std::optional<methods::ClosureError>& error) {
     out.emplace_back(prefix + "_m", error ? number(error->metres) : "");
@@ -147,16 +234,14 @@ std::vector<std::pair<std::string, std::string>> ledger_row(const LoopsResult& r
   };
   add("odometry", row.in_odometry);
   add("others", row.predicted);
-  out.emplace_back("moves_rms_m", number(row.moves_rms));
-  out.emplace_back("moves_max_m", number(row.moves_max));
-  out.emplace_back("moves_max_at", keyframe_name(result.problem, row.moves_at));
+  out.emplace_back("moves_rms_m", row.moves ? number(row.moves->rms) : "");
+  out.emplace_back("moves_max_m", row.moves ? number(row.moves->max) : "");
+  out.emplace_back("moves_max_at", row.moves ? keyframe_name(result.problem, row.moves->at) : "");
   out.emplace_back("chi2_drop", number(row.cost_drop));
   out.emplace_back("closure", std::to_string(closure));
   out.emplace_back("judgement", judgement(result, rank));
-  for (const auto& [method, rejected] : result.rejected) {
-    const bool is_rejected = std::ranges::find(rejected, closure) != rejected.end();
-    out.emplace_back("rejected_by_" + method, is_rejected ? "1" : "0");
-  }
+  out.emplace_back("others_solved", row.is_prediction_solved ? "1" : "0");
+  out.emplace_back("without_solved", row.is_drop_solved ? "1" : "0");
   return out;
 }
 

@@ -1,7 +1,6 @@
 /// What the loop closures of one trajectory or pose graph state about each other, in words.
 #pragma once
 
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,8 +14,6 @@ struct LoopsResult {
   std::string estimate;
   Problem problem;
   methods::ClosureLedger ledger;
-  /// Robust methods that ran, and the closures that each rejects, as indices in the problem.
-  std::map<std::string, std::vector<std::size_t>> rejected = {};
   bool is_kept = false;  ///< the closures are those that a robust method kept
 };
 
@@ -30,18 +27,21 @@ std::string closure_name(const Problem& problem, std::size_t closure);
 /// For people: three digits or more and no exponent, at most three decimals: 2467, 12.4, 0.031.
 std::string plain_number(double value);
 
-/// One to three sentences: whether the correction probably helps, or which closure contradicts the
-/// others (at fewer than three places only that something does), or why nothing can be stated and
-/// what would change that.
+/// Whether the closures agree, or which contradict the others (in which order), or why nothing can
+/// be stated and what would change that; whether the correction probably helps.
 std::string verdict_text(const LoopsResult& result);
 
-/// What the others state about the closure at a rank of `suspects`: "confirmed", "doubtful", or
-/// "suspicious".
+/// Of the closure at a rank of `suspects`: "agrees", "disagrees", or "unchecked".
 const char* judgement(const LoopsResult& result, std::size_t rank);
 
+/// "12 -> 13": the keyframes of a step of the odometry.
+std::string step_name(const Problem& problem, std::size_t from);
+
 /// Names and values of the columns for the closure at a rank of `suspects`: lengths in metres,
-/// angles in degrees, `sd` in standard deviations, names of keyframes as in the file, `closure` the
-/// index in the problem; empty: no prediction. Numbers have `digits` digits; 0: all.
+/// angles in degrees, `sd` in stated standard deviations, names of keyframes as in the file,
+/// `closure` the index in the problem; `others_solved` and `without_solved`: 1 if the numbers are
+/// those of a solution, 0 if they are linearised; empty: none, or not computed. Numbers have
+/// `digits` digits; 0: all.
 std::vector<std::pair<std::string, std::string>> ledger_row(const LoopsResult& result,
                                                             std::size_t rank,
                                                             int digits = 0);
@@ -50,7 +50,7 @@ std::vector<std::pair<std::string, std::string>> ledger_row(const LoopsResult& r
 std::string csv(const LoopsResult& result, int digits = 0);
 
 /// For the report of a sweep: the sentence, then the lines of csv(); only the reason if there is no
-/// ledger, or it would take too long; empty without closures. O(closures keyframes).
+/// ledger, or it would take too long; empty without closures.
 std::string stored_ledger(const Problem& problem);
 
 }  // namespace loopbench::harness

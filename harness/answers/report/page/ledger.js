@@ -6,7 +6,7 @@
   if (!ledgers.length) return R.hide("closures");
 
   // The colours of `loops --plot`.
-  const kinds = { suspicious: ["most suspicious", "#7d1d6f"], doubtful: ["doubtful", "#efb400"], confirmed: ["confirmed by others", "#2aa59a"] };
+  const kinds = { disagrees: ["disagrees", "#7d1d6f"], unchecked: ["cannot be checked", "#efb400"], agrees: ["agrees", "#2aa59a"] };
   const color = (kind) => d3.interpolateRgb(kinds[kind][1], "#fff")(R.dark.matches ? 0.35 : 0);
   const number = (text) => (text === "" ? "-" : d3.format(text < 1 ? ".3f" : text < 10 ? ".2f" : text < 100 ? ".1f" : ".0f")(text));
   // An id can have more digits than a number.
@@ -51,7 +51,7 @@
       const line = body.append("tbody").append("tr");
       columns.forEach(([, text], i) => line.append(i ? "td" : "th").text(text(row)));
     }
-    R.nothing(host, "place: closures that join the same two stretches of the path; [sd]: standard deviations; moves: change of the trajectory without the closure; chi2 drop: decrease of the cost without it.");
+    R.nothing(host, "place: closures whose ends are within 20 keyframes; odometry: distance and angle between the closure and the odometry between its keyframes; others: the same to the solution with the closures of other places that agree; [sd]: stated standard deviations; moves: change of the positions without the closure; chi2 drop: decrease of the cost without it.");
   };
 
   R.follow(() => {
