@@ -102,7 +102,7 @@ std::string disagreement_text(const LoopsResult& result) {
   if (agreeing < all) {
     out = fmt::format("{} of {} {} with the {} that agree: {}. `correct` drops {}.",
                       all - agreeing,
-                      counted(all, result.is_kept ? "kept closure" : "closure"),
+                      counted(all, "closure"),
                       all - agreeing == 1 ? "disagrees" : "disagree",
                       agreeing,
                       suspects_text(result, all - agreeing),

@@ -14,7 +14,6 @@ struct LoopsResult {
   std::string estimate;
   Problem problem;
   methods::ClosureLedger ledger;
-  bool is_kept = false;  ///< the closures are those that a robust method kept
 };
 
 /// The stamp without the digits below a nanosecond that arithmetic has left: 184.7, not
