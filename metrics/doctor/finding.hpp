@@ -38,9 +38,10 @@ struct Fault {
   static constexpr Name loop_stamps = "loop_stamps";                ///< match no pose
   static constexpr Name closure_direction = "closure_direction";    ///< from `to` to `from`
   static constexpr Name closure_convention = "closure_convention";  ///< order of quaternions, frame
-  static constexpr Name placeholders = "placeholders";  ///< identities that were not measured
-  static constexpr Name closure_gap = "closure_gap";    ///< contradicted by odometry or others
-  static constexpr Name information = "information";    ///< contradicts gaps, not positive definite
+  static constexpr Name placeholders = "placeholders";    ///< identities that were not measured
+  static constexpr Name closure_gap = "closure_gap";      ///< contradicted by odometry or others
+  static constexpr Name odometry_step = "odometry_step";  ///< contradicted by the closures
+  static constexpr Name information = "information";  ///< contradicts gaps, not positive definite
 };
 
 /// Findings with a smaller confidence are not reported.

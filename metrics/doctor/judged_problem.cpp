@@ -59,6 +59,7 @@ std::vector<InputFinding> JudgedProblem::findings() const {
   if (!is_decided()) return out;
   const auto wrong = information();
   if (auto found = gap(!wrong)) out.push_back(std::move(*found));
+  if (auto found = step()) out.push_back(std::move(*found));
   if (wrong) out.push_back(*wrong);
   return out;
 }
@@ -88,6 +89,16 @@ std::optional<InputFinding> JudgedProblem::gap(bool is_drift_known) const {
                       "check them; method consensus drops them",
                       1.0 - 1.0 / std::max(2.0, most),
                       static_cast<double>(found.size())};
+}
+
+std::optional<InputFinding> JudgedProblem::step() const {
+  if (judgement_->steps.empty()) return std::nullopt;
+  return InputFinding{Fault::odometry_step,
+                      "the closures contradict steps of the odometry: " +
+                          methods::freed_steps_text(problem_, *judgement_),
+                      "check them (lost tracking, wheels that slip); method consensus frees them",
+                      0.8,
+                      static_cast<double>(judgement_->steps.size())};
 }
 
 std::optional<InputFinding> JudgedProblem::information() const {

@@ -22,12 +22,13 @@ class JudgedProblem {
   /// Whether nearly all closures agree, with the stated deviations: nothing is wrong with them.
   bool is_as_stated() const;
 
-  /// Closures that disagree, and deviations that are not those stated. Empty if the closures do not
-  /// decide.
+  /// Closures that disagree, steps of the odometry that they exclude, and deviations that are not
+  /// those stated. Empty if the closures do not decide.
   std::vector<InputFinding> findings() const;
 
  private:
   std::optional<InputFinding> gap(bool is_drift_known) const;
+  std::optional<InputFinding> step() const;
   std::optional<InputFinding> information() const;
 
   Problem problem_;

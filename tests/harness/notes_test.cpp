@@ -78,6 +78,7 @@ TEST(NoteKinds, HaveTheNamesOfAllFaults) {
                                   Fault::closure_convention,
                                   Fault::placeholders,
                                   Fault::closure_gap,
+                                  Fault::odometry_step,
                                   Fault::information}) {
     const auto kind = from_text<NoteKind>(std::string(fault));
     ASSERT_TRUE(kind) << fault;

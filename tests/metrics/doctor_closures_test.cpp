@@ -229,6 +229,14 @@ TEST(DoctorOfClosures, ASecondCheckUsesTheJudgementThatIsKnown) {
   EXPECT_EQ(check_closures(problem, &judged)[0].evidence, check_closures(problem)[0].evidence);
 }
 
+TEST(DoctorOfClosures, StepsThatTheClosuresExclude) {
+  const Problem problem = rounds();
+  methods::ClosureJudgement judged = methods::judge_closures(problem);
+  judged.steps = {{.from = 59, .inflation = 30.0, .metres = 3.2, .degrees = 40.0}};
+  const InputFinding found = only(check_closures(problem, &judged), Fault::odometry_step);
+  EXPECT_THAT(found.evidence, HasSubstr("59.0 s -> 60.0 s (3.2 m, 40 deg)"));
+}
+
 TEST(DoctorOfClosures, InformationOfTheOdometry) {
   Problem problem = rounds();
   scale_information(problem.odometry, 1e6);

@@ -66,7 +66,8 @@ std::vector<Note> notes_of_closures(const Problem& all,
   if (check == nullptr || check->judgement == nullptr) return closure_notes(kept);
   std::vector<Note> out = closure_notes(all, check->judgement.get());
   std::erase_if(out, [](const Note& note) {
-    return note.kind == NoteKind::closure_gap || note.kind == NoteKind::information;
+    return note.kind == NoteKind::closure_gap || note.kind == NoteKind::odometry_step ||
+           note.kind == NoteKind::information;
   });
   return out;
 }

@@ -61,6 +61,7 @@ enum class NoteKind {
   closure_convention,
   placeholders,
   closure_gap,
+  odometry_step,
   information
 };
 
@@ -116,6 +117,7 @@ inline auto choices(NoteKind) {
                     std::pair{"closure_convention", closure_convention},
                     std::pair{"placeholders", placeholders},
                     std::pair{"closure_gap", closure_gap},
+                    std::pair{"odometry_step", odometry_step},
                     std::pair{"information", information}};
 }
 
