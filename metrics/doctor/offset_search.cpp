@@ -11,7 +11,7 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr Index kCoarsePoints = 1000;
+constexpr Index kCoarsePoints = 500;
 constexpr double kLeastCommon = 0.3;  // of the shorter file
 
 SpeedGrid coarser(const SpeedGrid& fine, Index count) {
@@ -140,6 +140,7 @@ std::vector<OffsetFit> OffsetSearch::best() const {
   constexpr std::size_t kCandidates = 6, kReturned = 3;
   constexpr double kApart = 2.0 * kWindowSteps;  // [steps]
   constexpr double kNear = 1.0, kRarer = 2.0;    // [s]; larger offsets are rarer
+  constexpr double kAgrees = 0.97;               // correlation at most a second from zero
   const SpeedGrid& a = coarse_reference_;
   const SpeedGrid& b = coarse_estimate_;
   const double count = std::round(a.step / reference_.step);
@@ -147,6 +148,20 @@ std::vector<OffsetFit> OffsetSearch::best() const {
     if (std::abs(fit.offset) > kNear) fit.likelihood -= kRarer;
     return fit;
   };
+  const auto best_near = [&](double offset, Index range) {
+    OffsetFit best{.offset = offset, .likelihood = -1.0};
+    const auto middle = std::lround(offset / reference_.step + zero_lag());
+    for (Index lag = middle - range; lag <= middle + range; ++lag) {
+      const OffsetFit fit = likely(fit_at(reference_, estimate_, 1.0, lag));
+      if (fit.likelihood > best.likelihood) best = fit;
+    }
+    return best;
+  };
+  // Of files that agree as read, only the rest is of interest.
+  const OffsetFit as_read = best_near(0.0, kWindowSteps);
+  const double least_points = 0.5 * std::min(reference_.distance.mask.sum(), size());
+  if (as_read.points >= least_points && std::max(as_read.distance, as_read.angle) > kAgrees)
+    return {refined(as_read)};
   const double least =
       kLeastCommon * std::min(a.distance.mask.sum(), b.distance.mask.sum()) * count;
   std::vector<OffsetFit> rough;
@@ -168,14 +183,7 @@ std::vector<OffsetFit> OffsetSearch::best() const {
   peaks.push_back(at(0.0));
   std::vector<OffsetFit> out;
   for (const OffsetFit& peak : peaks) {
-    OffsetFit best = peak;
-    best.likelihood = -1.0;
-    const auto middle = std::lround(peak.offset / reference_.step + zero_lag());
-    const auto range = static_cast<Index>(count);
-    for (Index lag = middle - range; lag <= middle + range; ++lag) {
-      const OffsetFit fit = likely(fit_at(reference_, estimate_, 1.0, lag));
-      if (fit.likelihood > best.likelihood) best = fit;
-    }
+    const OffsetFit best = best_near(peak.offset, static_cast<Index>(count));
     const bool is_known = std::ranges::any_of(out, [&](const OffsetFit& each) {
       return std::abs(each.offset - best.offset) < kApart * reference_.step;
     });

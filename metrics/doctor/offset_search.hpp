@@ -26,9 +26,9 @@ class OffsetSearch {
   /// Agreement at an offset, which is rounded to the grid. O(points).
   OffsetFit at(double offset) const;
 
-  /// The best fits over all offsets that leave at least three tenths of the shorter file in common,
-  /// and over the grid near zero: local maxima that are apart, the best first; at most three.
-  /// O(points^2) for 2000 points, coarse to fine.
+  /// The fit near zero if it agrees well; otherwise the best fits over all offsets that leave at
+  /// least three tenths of the shorter file in common, and over the grid near zero: local maxima
+  /// that are apart, the best first; at most three. O(points^2) for 500 points, coarse to fine.
   std::vector<OffsetFit> best() const;
 
   /// Points of the estimate's grid.

@@ -140,7 +140,7 @@ double speed_correlation(const Trajectory& reference, const Trajectory& estimate
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate) {
   constexpr double kWindow = 1.0, kOfDuration = 1.0 / 30.0, kShortest = 0.2;  // [s]
-  constexpr double kMostPoints = 8000.0, kUneven = 0.987;  // steps that are no multiples of rates
+  constexpr double kMostPoints = 4000.0, kUneven = 0.987;  // steps that are no multiples of rates
   constexpr double kAsLikely = 3.0;                        // logarithm of odds of 20 to 1
   if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
   const auto [shorter, longer] = std::minmax({duration(reference), duration(estimate)});
