@@ -1,9 +1,28 @@
 #include "methods/correctors/consensus.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "methods/correctors/consensus/judgement_text.hpp"
 #include "methods/correctors/pose_graph.hpp"
 
 namespace loopbench::methods {
+namespace {
+
+std::string freed_text(const Problem& problem, const FreedStep& step) {
+  const std::string as = std::isinf(step.inflation)
+                             ? "its motion is treated as unknown"
+                             : fmt::format("it gets {:.0f} times its deviation", step.inflation);
+  return fmt::format("the odometry from {} to {} is wrong by {:.2f} m and {:.1f} degrees: {}",
+                     problem.name_of(step.from),
+                     problem.name_of(step.from + 1),
+                     step.metres,
+                     step.degrees,
+                     as);
+}
+
+}  // namespace
 
 std::string Consensus::why_declined(const Problem& problem) const {
   return why_not_judged(problem);
@@ -20,6 +39,8 @@ Trajectory Consensus::correct(const Problem& problem, Report& report) const {
   report.count("evidence", found.evidence);
   report.count("rival_evidence", found.rival_evidence.value_or(0.0));
   report.count("closures_kept", found.is_decided() ? static_cast<double>(found.agreeing) : 0.0);
+  report.count("steps_freed", static_cast<double>(found.steps.size()));
+  for (const FreedStep& each : found.steps) report.notes.push_back(freed_text(problem, each));
   report.rejected.emplace();
   for (std::size_t k = 0; k < found.closures.size(); ++k) {
     const bool is_kept = found.is_decided() && found.closures[k].finding == ClosureFinding::agrees;

@@ -11,6 +11,7 @@ namespace loopbench::methods {
 
 /// Estimates factors on the stated deviations together with the closures that agree with each other
 /// and with the odometry (consensus/judgement.hpp), and corrects by PoseGraphOptimizer with both.
+/// Steps of the odometry that slipped, or after which the map starts again, are freed and named.
 /// If the data do not decide, the keyframes are returned unchanged.
 ///
 /// Robust losses decide by the stated covariances: too large, and false closures pass; too small,
@@ -28,7 +29,7 @@ class Consensus final : public Corrector {
   std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `decided` (0 or 1), `closures_kept`, `factor_t`, `factor_r` and `factor_closures` on
-  /// standard deviations, `evidence` and `rival_evidence` (log odds), and those of
+  /// standard deviations, `steps_freed`, `evidence` and `rival_evidence` (log odds), and those of
   /// PoseGraphOptimizer. Throws std::runtime_error when the solver finds no usable solution.
   Trajectory correct(const Problem& problem, Report& report) const override;
 

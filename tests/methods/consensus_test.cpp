@@ -138,6 +138,12 @@ std::vector<std::pair<std::size_t, std::size_t>> rejected(const Problem& problem
   return out;
 }
 
+std::vector<std::size_t> rejected_indices(const Problem& problem) {
+  Report report;
+  corrected<Consensus>(problem, {}, &report);
+  return *report.rejected;
+}
+
 TEST(Consensus, RejectsExactlyTheFalseClosuresOfADrive) {
   const Sequence clean = simulated_drive({.closures = 20});
   const double without = rmse(corrected<Consensus>(clean.problem),
@@ -235,6 +241,72 @@ TEST(Consensus, JoinsPartsWithoutOdometryBetween) {
   EXPECT_THAT(*report.rejected, IsEmpty());
   // The step is unknown, so that the odometry no longer holds the parts together: metres on 1 km.
   EXPECT_LT(largest_distance(joined, complete), 5.0);
+}
+
+TEST(StepWeights, AreHighestWhereAStepIsUnlikeBothNeighbours) {
+  Problem problem = along_x({0.0, 1.0, 2.0, 3.1, 4.1, 4.1, 5.1, 6.2, 7.2});  // stands from 4 to 5
+  const std::vector<double> found = log_step_weights(problem);
+  ASSERT_EQ(found.size(), 8u);
+  double sum = 0.0;
+  for (const double each : found) sum += std::exp(each);
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+  EXPECT_EQ(std::ranges::max_element(found) - found.begin(), 4);
+  EXPECT_GT(found[4], found[3] + std::log(50.0));
+  EXPECT_GT(found[4], found[5] + std::log(50.0));
+  std::erase_if(problem.odometry, [](const Edge& edge) { return edge.from == 4; });
+  EXPECT_EQ(log_step_weights(problem)[4], -std::numeric_limits<double>::infinity());
+}
+
+/// The drive with another motion from keyframe `from` to the next.
+Problem with_step(Problem problem, std::size_t from, const Pose& motion) {
+  problem.odometry[from].from_from_to = normalized(motion);
+  const Pose moved = problem.keyframes[from].world_from_body * motion *
+                     problem.keyframes[from + 1].world_from_body.inverse();
+  for (std::size_t k = from + 1; k < problem.keyframes.size(); ++k) {
+    problem.keyframes[k].world_from_body = normalized(moved * problem.keyframes[k].world_from_body);
+  }
+  return problem;
+}
+
+TEST(Consensus, FreesAStepThatSlipped) {
+  const Sequence drive = simulated_drive({.closures = 20});
+  const Problem& right = drive.problem;
+  const Pose slip = turned_about_z(0.4, {3.0, 0.5, 0.0});
+  const Problem problem = with_step(right, 90, right.odometry[90].from_from_to * slip);
+  const ClosureJudgement found = judge_closures(problem);
+  ASSERT_EQ(found.steps.size(), 1u);
+  EXPECT_EQ(found.steps.front().from, 90u);
+  EXPECT_GT(found.steps.front().log_odds, kLogNeeded);
+  EXPECT_NEAR(found.steps.front().metres, slip.translation.norm(), 2.0);  // with drift
+  EXPECT_NEAR(found.steps.front().degrees, 0.4 * 180.0 / M_PI, 2.0);
+  Report report;
+  const Trajectory done = corrected<Consensus>(problem, {}, &report);
+  EXPECT_EQ(*report.rejected, rejected_indices(right));
+  EXPECT_EQ(count(report, "steps_freed"), 1.0);
+  EXPECT_THAT(report.notes, testing::Contains(HasSubstr("times its deviation")));
+  const Trajectory truth = at_stamps_of(done, drive.reference);
+  EXPECT_LT(rmse(done, truth), 1.2 * rmse(corrected<Consensus>(right), truth));
+}
+
+TEST(Consensus, FreesTheStepAfterWhichTheMapStartsAgain) {
+  const Problem right = simulated_drive({.closures = 20, .planar = false}).problem;
+  const Pose restart =
+      right.keyframes[90].world_from_body.inverse() * right.keyframes.front().world_from_body;
+  const ClosureJudgement found = judge_closures(with_step(right, 90, restart));
+  ASSERT_EQ(found.steps.size(), 1u);
+  EXPECT_EQ(found.steps.front().from, 90u);
+  EXPECT_TRUE(std::isinf(found.steps.front().inflation));
+  EXPECT_EQ(found.agreeing, 20u);
+}
+
+TEST(Consensus, FreesNoStepOfARightDrive) {
+  for (const std::int64_t seed : {1, 2, 3}) {
+    for (const double share : {0.0, 0.3}) {
+      const Problem right =
+          simulated_drive({.closures = 16, .seed = seed, .false_share = share}).problem;
+      EXPECT_THAT(judge_closures(right).steps, IsEmpty()) << seed << " " << share;
+    }
+  }
 }
 
 TEST(Consensus, TakesClosuresDerivedFromTheOdometryForNoEvidence) {

@@ -1,5 +1,6 @@
 // Error rates of `consensus` and other correctors on chains with planted closures.
-// Usage: consensus_rates DATA HALF METHODS   (HALF: 0 design, 1 held out; METHODS: a,b,c)
+// Usage: consensus_rates DATA HALF METHODS [PLANT]
+// HALF: 0 design, 1 held out; METHODS: a,b,c; PLANT: a part of the names of plants, all by default
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -8,6 +9,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "methods/correctors/consensus/judgement.hpp"
 #include "methods/method.hpp"
 #include "tests/studies/planted_problems.hpp"
 
@@ -63,10 +65,23 @@ double count_of(const methods::Report& report, const std::string& name) {
   return 0.0;
 }
 
-/// The true closures and deviations.
+/// The steps that consensus accuses, as "50x100;60xinf".
+std::string accused(const Problem& problem) {
+  if (!methods::why_not_judged(problem).empty()) return "";
+  std::string out;
+  for (const methods::FreedStep& step : methods::judge_closures(problem).steps) {
+    out += fmt::format("{}{}x{}", out.empty() ? "" : ";", step.from, step.inflation);
+  }
+  return out;
+}
+
+/// The true closures, steps and deviations.
 double oracle(const TrueChain& chain, const PlantedProblem& of) {
   PlantedProblem known = of;
   known.problem.odometry = chain.problem.odometry;
+  if (of.wrong_step) {
+    std::erase_if(known.problem.odometry, [&](const Edge& e) { return e.from == *of.wrong_step; });
+  }
   known.problem.closures.clear();
   for (std::size_t k = 0; k < of.is_false.size(); ++k) {
     if (!of.is_false[k]) known.problem.closures.push_back(of.problem.closures[k]);
@@ -80,8 +95,8 @@ double oracle(const TrueChain& chain, const PlantedProblem& of) {
 
 int main(int argc, char** argv) {
   using namespace loopbench;
-  if (argc != 4) {
-    fmt::print(stderr, "usage: consensus_rates DATA HALF METHODS\n");
+  if (argc != 4 && argc != 5) {
+    fmt::print(stderr, "usage: consensus_rates DATA HALF METHODS [PLANT]\n");
     return 2;
   }
   const int half = std::atoi(argv[2]);
@@ -92,21 +107,24 @@ int main(int argc, char** argv) {
   for (TrueChain& each : simulated_chains(1, 12)) chains.push_back(std::move(each));
   fmt::print(
       "chain,plant,odometry,method,ate,raw,oracle,true,false,kept_false,dropped_true,"
-      "seconds,decided,factor_t,factor_r,factor_closures,evidence,rival\n");
+      "seconds,decided,factor_t,factor_r,factor_closures,evidence,rival,wrong_step,accused\n");
   for (std::size_t c = 0; c < chains.size(); ++c) {
     if (static_cast<int>(c % 2) != half) continue;
     const TrueChain& chain = chains[c];
-    for (int plant = 0; plant <= static_cast<int>(Plant::one_of_three_false); ++plant) {
+    for (int plant = 0; plant <= static_cast<int>(kLastPlant); ++plant) {
+      if (argc == 5 && name_of(static_cast<Plant>(plant)).find(argv[4]) == std::string::npos) {
+        continue;
+      }
       for (const double odometry : {0.1, 1.0, 10.0}) {
         const PlantedProblem problem = planted(chain, static_cast<Plant>(plant), odometry, 1);
         const auto falses = std::ranges::count(problem.is_false, true);
-        const double raw = absolute_error(chain.problem.keyframes, chain.truth);
+        const double raw = absolute_error(problem.problem.keyframes, chain.truth);
         const double known = oracle(chain, problem);
         for (const std::string& name : names) {
           const Run done = run(name, problem, chain);
           fmt::print(
               "{},{},{},{},{:.5g},{:.5g},{:.5g},{},{},{},{},{:.4f},{},{:.3g},{:.3g},{:.3g},"
-              "{:.3g},{:.3g}\n",
+              "{:.3g},{:.3g},{},{}\n",
               chain.name,
               name_of(static_cast<Plant>(plant)),
               odometry,
@@ -124,7 +142,9 @@ int main(int argc, char** argv) {
               count_of(done.report, "factor_r"),
               count_of(done.report, "factor_closures"),
               count_of(done.report, "evidence"),
-              count_of(done.report, "rival_evidence"));
+              count_of(done.report, "rival_evidence"),
+              problem.wrong_step ? std::to_string(*problem.wrong_step) : "",
+              name == "consensus" ? accused(problem.problem) : "");
         }
         std::fflush(stdout);
       }

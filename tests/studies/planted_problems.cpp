@@ -100,12 +100,43 @@ class Planter {
     }
   }
 
+  /// A step that at least three true closures span.
+  std::size_t spanned_step() {
+    constexpr int kLeast = 3;
+    std::vector<std::size_t> steps;
+    for (std::size_t k = 0; k + 1 < chain_.truth.size(); ++k) {
+      const auto spanning = std::ranges::count_if(out_, [k](const auto& each) {
+        return !each.second && each.first.from <= k && each.first.to > k;
+      });
+      if (spanning >= kLeast) steps.push_back(k);
+    }
+    return steps.empty() ? 0 : steps[random_.index(steps.size())];
+  }
+
+  /// A wrong motion of one step, with `factor` times its deviations; 0: a new start.
+  void add_wrong_step(double factor) {
+    wrong_step_ = spanned_step();
+    const Edge& edge = chain_.problem.odometry[*wrong_step_];
+    const Trajectory& keyframes = chain_.problem.keyframes;
+    if (factor == 0.0) {
+      wrong_motion_ =
+          keyframes[edge.from].world_from_body.inverse() * keyframes.front().world_from_body;
+      return;
+    }
+    const Matrix6 covariance = edge.information.inverse();
+    Twist error = random_.normal_twist(factor * std::sqrt(covariance(0, 0)),
+                                       factor * std::sqrt(covariance(5, 5)));
+    if (chain_.problem.planar) error.segment<3>(2).setZero();
+    wrong_motion_ = edge.from_from_to * exp_se3(error);
+  }
+
   PlantedProblem problem(double odometry) {
     std::ranges::stable_sort(out_, [](const auto& a, const auto& b) {
       return std::tie(a.first.to, a.first.from) < std::tie(b.first.to, b.first.from);
     });
     PlantedProblem out{chain_.problem, {}};
     for (Edge& edge : out.problem.odometry) edge.information /= odometry * odometry;
+    if (wrong_step_) move_end(out);
     for (const auto& [edge, is_false] : out_) {
       out.problem.closures.push_back(edge);
       out.is_false.push_back(is_false);
@@ -114,10 +145,24 @@ class Planter {
   }
 
  private:
+  void move_end(PlantedProblem& out) {
+    out.wrong_step = wrong_step_;
+    Edge& edge = out.problem.odometry[*wrong_step_];
+    Trajectory& keyframes = out.problem.keyframes;
+    edge.from_from_to = normalized(wrong_motion_);
+    const Pose moved = keyframes[edge.from].world_from_body * wrong_motion_ *
+                       keyframes[edge.to].world_from_body.inverse();
+    for (std::size_t k = edge.to; k < keyframes.size(); ++k) {
+      keyframes[k].world_from_body = normalized(moved * keyframes[k].world_from_body);
+    }
+  }
+
   const TrueChain& chain_;
   Random random_;
   Matrix6 information_;
   std::vector<std::pair<Edge, bool>> out_;
+  std::optional<std::size_t> wrong_step_;
+  Pose wrong_motion_;
 };
 
 }  // namespace
@@ -149,9 +194,17 @@ std::string name_of(Plant plant) {
     case Plant::one_of_two_false:
       return "one of two false";
     case Plant::one_of_three_false:
+      return "one of three false";
+    case Plant::wrong_step:
+      return "wrong step";
+    case Plant::wrong_step_30:
+      return "wrong step 30 times";
+    case Plant::wrong_step_false:
+      return "wrong step 20 % false";
+    case Plant::restart:
       break;
   }
-  return "one of three false";
+  return "new start";
 }
 
 bool is_gaussian(Plant plant) {
@@ -200,6 +253,18 @@ PlantedProblem planted(const TrueChain& chain, Plant plant, double odometry, std
       break;
     case Plant::one_of_three_false:
       to.add_true(2), to.add_false(1);
+      break;
+    case Plant::wrong_step:
+      to.add_true(kTrue), to.add_wrong_step(100.0);
+      break;
+    case Plant::wrong_step_30:
+      to.add_true(kTrue), to.add_wrong_step(30.0);
+      break;
+    case Plant::wrong_step_false:
+      to.add_true(kTrue), to.add_false(kTrue / 4), to.add_wrong_step(100.0);
+      break;
+    case Plant::restart:
+      to.add_true(kTrue), to.add_wrong_step(0.0);
       break;
   }
   return to.problem(odometry);

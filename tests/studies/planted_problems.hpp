@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,12 @@ enum class Plant {
   one_of_one_false,
   one_of_two_false,
   one_of_three_false,
+  wrong_step,        ///< one step of the odometry has a hundred times its deviation
+  wrong_step_30,     ///< thirty times
+  wrong_step_false,  ///< a hundred times, and a fifth of the closures is false
+  restart,           ///< at one step the odometry starts again at the pose of the first keyframe
 };
+inline constexpr Plant kLastPlant = Plant::restart;
 
 std::string name_of(Plant plant);
 
@@ -32,7 +38,8 @@ bool is_gaussian(Plant plant);
 
 struct PlantedProblem {
   Problem problem;
-  std::vector<bool> is_false;  ///< of each closure
+  std::vector<bool> is_false;                  ///< of each closure
+  std::optional<std::size_t> wrong_step = {};  ///< keyframe where it begins
 };
 
 /// `odometry`: factor on the stated deviations of the odometry, 1: as in the chain.

@@ -10,11 +10,11 @@ namespace {
 constexpr double kDeviation = 1e-3;  // of the largest extent: half a line width
 
 /// Positions of a curve.
-struct DrawnPath {
+struct CurveLine {
   std::vector<const double*> axes;
   double largest = 0.0;  ///< deviation
 
-  explicit DrawnPath(const DrawnCurve& curve, std::size_t rows) {
+  explicit CurveLine(const DrawnCurve& curve, std::size_t rows) {
     for (const char* name : {"x", "y", "z"}) {
       const auto found = curve.columns.find(name);
       if (found == curve.columns.end() || found->second.size() != rows) continue;
@@ -74,7 +74,7 @@ void thin(DrawnCurve& curve, const std::vector<std::string>& peaks) {
   std::vector<std::size_t> kept = subsampled_indices(rows, kMostRows);
   std::vector<const double*> columns;
   for (const std::string& name : peaks) columns.push_back(curve.columns.at(name).data());
-  const DrawnPath path(curve, rows);
+  const CurveLine path(curve, rows);
   columns.insert(columns.end(), path.axes.begin(), path.axes.end());
   for (std::size_t k = 0; k + 1 < kMostRows; ++k) {
     for (const double* values : columns) {

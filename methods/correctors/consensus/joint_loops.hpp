@@ -28,20 +28,26 @@ class JointLoops {
     const auto size = D * static_cast<Eigen::Index>(loops.size());
     const double variance = std::exp(2.0 * factors.closures);
     Eigen::MatrixXd covariance(size, size);
-    Eigen::VectorXd rho(size);
+    rho_.resize(size);
     for (std::size_t j = 0; j < loops.size(); ++j) {
       for (std::size_t i = j; i < loops.size(); ++i) {
         covariance.block<D, D>(row(i), row(j)) = model.shared(sums_, loops[i], loops[j]);
       }
       covariance.block<D, D>(row(j), row(j)) += variance * model.own(loops[j]);
-      rho.segment<D>(row(j)) = model.rho(loops[j]);
+      rho_.template segment<D>(row(j)) = model.rho(loops[j]);
     }
     factor_.compute(covariance);
-    if (is_positive()) multipliers_ = factor_.solve(rho);
+    if (is_positive()) multipliers_ = factor_.solve(rho_);
   }
 
   /// Whether C is positive definite; nothing else may be called otherwise.
   bool is_positive() const { return factor_.info() == Eigen::Success; }
+
+  /// Errors of all loops, one below the other.
+  const Eigen::VectorXd& rho() const { return rho_; }
+
+  /// C^-1 times a matrix.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& of) const { return factor_.solve(of); }
 
   /// Poses of the chain corrected by the loops.
   std::vector<typename G::Element> corrected() const {
@@ -88,7 +94,7 @@ class JointLoops {
   const std::vector<std::size_t>& loops_;
   std::vector<Square> sums_;
   Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor_;
-  Eigen::VectorXd multipliers_;
+  Eigen::VectorXd rho_, multipliers_;
 };
 
 }  // namespace loopbench::methods::consensus

@@ -14,6 +14,7 @@
 #include "methods/correctors/consensus/placed_parts.hpp"
 #include "methods/correctors/consensus/search.hpp"
 #include "methods/correctors/consensus/solution_check.hpp"
+#include "methods/correctors/consensus/step_search.hpp"
 
 namespace loopbench::methods::consensus {
 
@@ -40,14 +41,6 @@ inline std::vector<std::size_t> evenly_chosen(const std::vector<std::size_t>& cl
   for (std::size_t i = 0; i < count; ++i) {
     out.push_back(closures[(2 * i + 1) * closures.size() / (2 * count)]);
   }
-  return out;
-}
-
-/// The chain for some closures of the problem, with its parts placed.
-template <class G>
-ReducedChain<G> placed_chain(const Problem& problem, std::span<const std::size_t> closures) {
-  ReducedChain<G> out = reduced_chain<G>(problem, closures);
-  if (out.has_unknown) PartPlacement<G>(out).run();
   return out;
 }
 
@@ -90,15 +83,22 @@ class Judge {
       return out_;
     }
     const std::vector<std::size_t> chosen = evenly_chosen(measured_, kSearched<G>);
-    const ReducedChain<G> chain = placed_chain<G>(problem_, chosen);
-    Search<G> search(chain, SearchSettings{});
+    StepExplanation<G> best;
+    best.chain = std::make_unique<ReducedChain<G>>(placed_chain<G>(problem_, chosen));
+    Search<G> search(*best.chain, SearchSettings{});
     search.run();
-    std::optional<Explanation<G>> found = refined(search);
+    best.found = refined(search);
+    StepSearch<G>(problem_, chosen, kLogNeeded).run(best);
+    out_.steps = best.freed;
+    const ReducedChain<G>& chain = *best.chain;
+    std::optional<Explanation<G>>& found = best.found;
     if (!found) return out_;
     std::optional<Explanation<G>> rival = rival_of(chosen, *found);
     if (rival && rival->evidence > found->evidence) {  // it may explain the others, too
-      search.run_from(rival->factors, rival->kept);
-      found = refined(search);
+      Search<G> again(chain, SearchSettings{});
+      again.run_from(rival->factors, rival->kept);
+      again.run_from(found->factors, found->kept);
+      found = refined(again);
       if (!found) return out_;
       rival = rival_of(chosen, *found);
     }
@@ -124,21 +124,6 @@ class Judge {
     out_.factors.closures = std::exp(at.closures);
   }
 
-  /// The best explanation without outliers among its loops, with factors fitted more finely.
-  static std::optional<Explanation<G>> refined(const Search<G>& search) {
-    std::optional<Explanation<G>> out = search.best();
-    if (!out) return out;
-    constexpr int kRounds = 2;
-    for (int round = 0; round < kRounds; ++round) {
-      drop_outliers(*out);
-      const double step = round == 0 ? 0.175 : 0.0875;
-      out->factors = climb(LoopLikelihood(out->model, out->kept), out->factors, step, 0.06);
-      relinearise(out->model, out->factors, out->kept);
-    }
-    if (!evaluate(*out)) out.reset();
-    return out;
-  }
-
   /// The best explanation of the closures that are not kept; its own are indices in `chosen`.
   std::optional<Explanation<G>> rival_of(const std::vector<std::size_t>& chosen,
                                          const Explanation<G>& of) {
@@ -149,7 +134,7 @@ class Judge {
       rest.push_back(chosen[i]);
     }
     if (rest.empty()) return std::nullopt;
-    rest_ = placed_chain<G>(problem_, rest);
+    rest_ = placed_chain<G>(problem_, rest, out_.steps);
     Search<G> search(rest_, {.starts = 4, .refined = 2, .rounds = 1});
     search.run();
     std::optional<Explanation<G>> out = search.best();
@@ -192,7 +177,7 @@ class Judge {
     chosen.insert(chosen.end(), searched.closures->begin(), searched.closures->end());
     std::ranges::sort(chosen);
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    ReducedChain<G> chain = reduced_chain<G>(problem_, chosen);
+    ReducedChain<G> chain = reduced_chain<G>(problem_, chosen, out_.steps);
     std::vector<std::size_t> kept;
     Explanation<G> core{found.factors, {}, widened(chain, chosen, searched, found, kept)};
     core.kept = agreeing_loops(core.model, core.factors, kept, 0);
@@ -206,7 +191,7 @@ class Judge {
       classify(core.model, core.factors, core.kept, chosen);
       return;
     }
-    full_ = reduced_chain<G>(problem_, measured_);
+    full_ = reduced_chain<G>(problem_, measured_, out_.steps);
     const CycleModel<G> model = widened(full_, measured_, {&chain, &chosen}, core, kept);
     classify(model, core.factors, kept, chosen);
     drop_inconsistent<G>(problem_, full_.log_uniform, out_);
@@ -218,6 +203,7 @@ class Judge {
                 const LogFactors& factors,
                 const std::vector<std::size_t>& kept,
                 const std::vector<std::size_t>& compared) {
+    state_steps(model);
     Elimination<G> eliminated(model, factors);
     if (!eliminated.condition_on(kept)) return;
     std::vector<bool> is_kept(model.size(), false);
@@ -238,6 +224,21 @@ class Judge {
       if (is_rest && closure.log_odds > 0.0 && inlier.squared < kLargestSquared<G>) {
         closure.finding = ClosureFinding::agrees;
       }
+    }
+  }
+
+  /// Errors of the odometry in the freed steps, at the poses of the model.
+  void state_steps(const CycleModel<G>& model) {
+    const std::vector<std::size_t>& keyframe = model.chain().keyframe;
+    for (FreedStep& step : out_.steps) {
+      const auto at = std::ranges::lower_bound(keyframe, step.from) - keyframe.begin();
+      const auto k = static_cast<std::size_t>(at);
+      const auto edge = std::ranges::lower_bound(problem_.odometry, step.from, {}, &Edge::from);
+      const auto motion = G::compose(G::inverse(model.poses()[k]), model.poses()[k + 1]);
+      const auto error = G::compose(G::inverse(G::from(measured(*edge))), motion);
+      const Pose off = G::to_scaled_pose(error).pose;
+      step.metres = off.translation.norm();
+      step.degrees = log_so3(off.rotation).norm() * 180.0 / M_PI;
     }
   }
 
@@ -269,6 +270,7 @@ class Judge {
     if (rival > 0.0 && lead < kLogNeeded) out_.outcome = ConsensusOutcome::rival;
     if (kept > 0 && out_.evidence < kLogNeeded) out_.outcome = ConsensusOutcome::few;
     if (out_.is_decided()) return;
+    out_.steps.clear();
     const double each = std::max(1.0, out_.evidence / static_cast<double>(kept));
     out_.more_needed = static_cast<std::size_t>(std::ceil((kLogNeeded - lead) / each));
   }

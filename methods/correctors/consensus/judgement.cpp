@@ -73,6 +73,14 @@ Problem agreed_problem(const Problem& problem, const ClosureJudgement& judgement
   Twist shrink;
   shrink.head<3>().setConstant(1.0 / judgement.factors.translation);
   shrink.tail<3>().setConstant(1.0 / judgement.factors.rotation);
+  for (const FreedStep& step : judgement.steps) {
+    const auto edge = std::ranges::lower_bound(out.odometry, step.from, {}, &Edge::from);
+    if (std::isinf(step.inflation)) {
+      out.odometry.erase(edge);
+    } else {
+      edge->information /= step.inflation * step.inflation;
+    }
+  }
   for (Edge& edge : out.odometry) {
     edge.information = (shrink.asDiagonal() * edge.information * shrink.asDiagonal()).eval();
   }

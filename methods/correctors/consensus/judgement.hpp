@@ -89,18 +89,21 @@ std::string why_not_judged(const Problem& problem);
 /// A closure is true, with the stated covariance times an unknown factor, or an outlier: uniform
 /// over the map, or slipped. From several starting factors, the closures are added that are
 /// likelier true given those before, and the factors are fitted to them, in turn; the explanation
-/// of the highest posterior density wins. It is accepted if its evidence exceeds `evidence_needed`,
-/// and exceeds that of the best explanation of the other closures by as much. Where a step has no
-/// odometry, its motion is unknown.
+/// of the highest posterior density wins. A step of the odometry competes with the closures that
+/// contradict it: it may have 10, 30 or 100 times its deviation, or unknown motion; it is freed if
+/// that is 100 times likelier than any explanation without. The best explanation is accepted if its
+/// evidence exceeds `evidence_needed`, and exceeds that of the best explanation of the other
+/// closures by as much. Where a step has no odometry, its motion is unknown.
 ///
 /// At most a bounded number of closures, evenly chosen, take part in the search; the others are
 /// then compared with the result, so that the cost is bounded: O(keyframes + closures), with a
 /// large constant. Deterministic. Requires why_not_judged() to be empty. No reference is used.
 ClosureJudgement judge_closures(const Problem& problem);
 
-/// The problem with the closures that agree and its information divided by the squared factors.
-/// Steps without odometry get an edge with the keyframes' motion and a wide covariance if their
-/// parts would be unconnected otherwise.
+/// The problem with the closures that agree, its information divided by the squared factors and
+/// that of a freed step by its inflation; the edge is left out where its motion is unknown. Steps
+/// without odometry get an edge with the keyframes' motion and a wide covariance if their parts
+/// would be unconnected otherwise.
 Problem agreed_problem(const Problem& problem, const ClosureJudgement& judgement);
 
 }  // namespace loopbench::methods

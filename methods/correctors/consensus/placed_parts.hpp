@@ -115,4 +115,14 @@ class PartPlacement {
   std::vector<bool> is_placed_;    ///< of each part
 };
 
+/// The chain for some closures of the problem, with its parts placed.
+template <class G>
+ReducedChain<G> placed_chain(const Problem& problem,
+                             std::span<const std::size_t> closures,
+                             std::span<const FreedStep> freed = {}) {
+  ReducedChain<G> out = reduced_chain<G>(problem, closures, freed);
+  if (out.has_unknown) PartPlacement<G>(out).run();
+  return out;
+}
+
 }  // namespace loopbench::methods::consensus

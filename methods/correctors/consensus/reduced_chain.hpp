@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
+#include "methods/correctors/consensus/judgement.hpp"
 #include "methods/solvers/groups/scaled_pose.hpp"
 
 namespace loopbench::methods::consensus {
@@ -36,9 +38,9 @@ struct ChainLoop {
   typename G::Square covariance;  ///< as stated
 };
 
-/// Nodes are the ends of the loops, both ends of each step without odometry, and some keyframes in
-/// between, so that the chain can bend. Poses are relative to the first keyframe, with positions
-/// relative to the centre of the chain: the world frame does not matter.
+/// Nodes are the ends of the loops, both ends of each step that is freed or has no odometry, and
+/// some keyframes in between, so that the chain can bend. Poses are relative to the first keyframe,
+/// with positions relative to the centre of the chain: the world frame does not matter.
 template <class G>
 struct ReducedChain {
   std::vector<std::size_t> keyframe;       ///< of each node, ascending
@@ -79,16 +81,22 @@ typename G::Square unknown_covariance(double log_uniform) {
   return out;
 }
 
-/// Reduces the chain for the given closures. The odometry is integrated from the first keyframe;
-/// where an edge is missing, with the motion between the keyframes. O(keyframes).
+/// Reduces the chain for the given closures, with some steps freed. The odometry is integrated from
+/// the first keyframe; where an edge is missing, with the motion between the keyframes.
+/// O(keyframes).
 template <class G>
 class ChainReduction {
  public:
   using Element = typename G::Element;
   using Square = typename G::Square;
 
-  ChainReduction(const Problem& problem, std::span<const std::size_t> closures)
-      : problem_(problem), closures_(closures), is_node_(problem.keyframes.size(), false) {}
+  ChainReduction(const Problem& problem,
+                 std::span<const std::size_t> closures,
+                 std::span<const FreedStep> freed)
+      : problem_(problem),
+        closures_(closures),
+        freed_(freed),
+        is_node_(problem.keyframes.size(), false) {}
 
   ReducedChain<G> run() {
     const std::vector<Element> poses = integrated();
@@ -116,8 +124,6 @@ class ChainReduction {
  private:
   static constexpr std::size_t kLeastSteps = 64;  ///< of the reduced chain: it bends between them
 
-  const Edge* edge_of(std::size_t step) const { return edges_[step]; }
-
   Element motion_of(std::size_t step) const {
     if (edges_[step] != nullptr) return G::from(measured(*edges_[step]));
     const Trajectory& keyframes = problem_.keyframes;
@@ -130,6 +136,9 @@ class ChainReduction {
   std::vector<Element> integrated() {
     edges_.assign(problem_.keyframes.size() - 1, nullptr);
     for (const Edge& edge : problem_.odometry) edges_[edge.from] = &edge;
+    inflation_.assign(edges_.size(), std::numeric_limits<double>::infinity());
+    for (const Edge& edge : problem_.odometry) inflation_[edge.from] = 1.0;
+    for (const FreedStep& step : freed_) inflation_[step.from] = step.inflation;
     std::vector<Element> out{G::from({Pose{}, 1.0})};
     for (std::size_t k = 0; k < edges_.size(); ++k) {
       out.push_back(G::compose(out.back(), motion_of(k)));
@@ -159,7 +168,7 @@ class ChainReduction {
       is_node_[problem_.closures[c].from] = is_node_[problem_.closures[c].to] = true;
     }
     for (std::size_t k = 0; k < steps; ++k) {
-      if (edges_[k] == nullptr) is_node_[k] = is_node_[k + 1] = true;
+      if (inflation_[k] != 1.0) is_node_[k] = is_node_[k + 1] = true;
     }
   }
 
@@ -179,13 +188,14 @@ class ChainReduction {
     move(to.rotation);
     if (out_.has_mixed) move(to.mixed);
     if (out_.has_unknown) move(to.unknown);
-    if (edges_[step] == nullptr) {
+    if (std::isinf(inflation_[step])) {
       to.unknown += unknown_;
       out_.has_unknown = true;
       return;
     }
     constexpr int kFirst = kTranslation<G>, kLast = G::kDof - kFirst;
-    const Square own = G::information(*edges_[step], 1.0).inverse();
+    const double variance = inflation_[step] * inflation_[step];
+    const Square own = variance * G::information(*edges_[step], 1.0).inverse();
     to.translation.template topLeftCorner<kFirst, kFirst>() +=
         own.template topLeftCorner<kFirst, kFirst>();
     to.rotation.template bottomRightCorner<kLast, kLast>() +=
@@ -199,15 +209,19 @@ class ChainReduction {
 
   const Problem& problem_;
   std::span<const std::size_t> closures_;
+  std::span<const FreedStep> freed_;
   std::vector<const Edge*> edges_;  ///< of each step; null: no odometry
+  std::vector<double> inflation_;   ///< of its deviations; infinity: its motion is unknown
   std::vector<bool> is_node_;
   Square unknown_;
   ReducedChain<G> out_;
 };
 
 template <class G>
-ReducedChain<G> reduced_chain(const Problem& problem, std::span<const std::size_t> closures) {
-  return ChainReduction<G>(problem, closures).run();
+ReducedChain<G> reduced_chain(const Problem& problem,
+                              std::span<const std::size_t> closures,
+                              std::span<const FreedStep> freed = {}) {
+  return ChainReduction<G>(problem, closures, freed).run();
 }
 
 }  // namespace loopbench::methods::consensus

@@ -199,4 +199,20 @@ class Search {
   std::optional<Explanation<G>> best_;
 };
 
+/// The best explanation, without outliers among its loops, with factors fitted more finely.
+template <class G>
+std::optional<Explanation<G>> refined(const Search<G>& search) {
+  std::optional<Explanation<G>> out = search.best();
+  if (!out) return out;
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round) {
+    drop_outliers(*out);
+    const double step = round == 0 ? 0.175 : 0.0875;
+    out->factors = climb(LoopLikelihood(out->model, out->kept), out->factors, step, 0.06);
+    relinearise(out->model, out->factors, out->kept);
+  }
+  if (!evaluate(*out)) out.reset();
+  return out;
+}
+
 }  // namespace loopbench::methods::consensus
