@@ -236,9 +236,7 @@ class Judge {
       const auto edge = std::ranges::lower_bound(problem_.odometry, step.from, {}, &Edge::from);
       const auto motion = G::compose(G::inverse(model.poses()[k]), model.poses()[k + 1]);
       const auto error = G::compose(G::inverse(G::from(measured(*edge))), motion);
-      const Pose off = G::to_scaled_pose(error).pose;
-      step.metres = off.translation.norm();
-      step.degrees = log_so3(off.rotation).norm() * 180.0 / M_PI;
+      state_size(error, step);
     }
   }
 
@@ -255,9 +253,15 @@ class Judge {
         outlier > model.log_uniform() ? ClosureFinding::slipped : ClosureFinding::contradicts;
     // The error is a motion of the chain in the world; at the end of the closure:
     const auto gap = G::adjoint(G::inverse(model.poses()[model.chain().loops[a].to])) * error;
-    constexpr int kFirst = kTranslation<G>;
-    closure.metres = gap.template head<kFirst>().norm();
-    closure.degrees = gap.template tail<G::kDof - kFirst>().norm() * 180.0 / M_PI;
+    state_size(G::exp(gap), closure);
+  }
+
+  /// Distance and angle of a motion.
+  template <typename Motion, typename Item>
+  static void state_size(const Motion& motion, Item& item) {
+    const Pose off = G::to_scaled_pose(motion).pose;
+    item.metres = off.translation.norm();
+    item.degrees = log_so3(off.rotation).norm() * 180.0 / M_PI;
   }
 
   void decide_by(std::size_t kept) {
