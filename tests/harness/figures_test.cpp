@@ -154,8 +154,7 @@ TEST(Figures, AllRunsAreDrawn) {
                           "rp 3",
                           "rp 4"));
   EXPECT_EQ(all.note, "");
-  EXPECT_EQ(all.title,
-            "W, not aligned. In brackets: position error (RMSE)");
+  EXPECT_EQ(all.title, "W, not aligned. In brackets: position error (RMSE)");
 }
 
 TEST(Figures, TheBestOfVeryManyRunsAreDrawn) {

@@ -141,7 +141,8 @@ TEST(GateText, IsMarkdownAndJUnit) {
             "relative 0.001, absolute 1e-06)\n");
 }
 
-/// A sweep of 64 repeats, 9 methods and 12 scores, all of which got worse, one more than the others.
+/// A sweep of 64 repeats, 9 methods and 12 scores, all of which got worse, one more than the
+/// others.
 GateReport worse_everywhere(const std::string& suffix) {
   Baseline before;
   before.limits = {rmse_alone()};

@@ -30,7 +30,8 @@ std::vector<PaperColumn> columns_of(const Table& table, double limit) {
     std::size_t longest = 9;  // characters; wider headings are broken if entries are narrower
     for (const auto& line : table.lines) {
       longest = std::max(longest, width(line[c].text));
-      column.width = std::max(column.width, (line[c].is_best ? 1.15 : 1.0) * latex_width(line[c].text));
+      column.width =
+          std::max(column.width, (line[c].is_best ? 1.15 : 1.0) * latex_width(line[c].text));
     }
     column.heading = wrapped(table.headings[c], longest);
     for (const std::string& line : column.heading) {
