@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 using methods::ClosureLedger;
 using methods::LedgerRow;
 
-constexpr std::size_t kWidest = 13;  // name of a closure in a row of 80 columns
+constexpr std::size_t kWidestName = 13;  // name of a closure in a row of 80 columns
 
 /// Numbers, words, or null without a prediction.
 Json row_json(const LoopsResult& result, std::size_t rank) {
@@ -68,7 +68,7 @@ bool has_wide_names(const LoopsResult& result, std::size_t shown) {
   return std::any_of(
       result.ledger.suspects.begin(),
       result.ledger.suspects.begin() + static_cast<std::ptrdiff_t>(shown),
-      [&](std::size_t k) { return closure_name(result.problem, k).size() > kWidest; });
+      [&](std::size_t k) { return closure_name(result.problem, k).size() > kWidestName; });
 }
 
 /// A number of 9 columns, marked if it is linearised.
@@ -80,7 +80,7 @@ std::string row_text(const LoopsResult& result, std::size_t rank, bool is_wide) 
   const std::size_t k = result.ledger.suspects[rank];
   const LedgerRow& row = result.ledger.rows[k];
   const std::string name = closure_name(result.problem, k);
-  std::string out = is_wide ? name + "\n" + std::string(kWidest, ' ') : fmt::format("{:<13}", name);
+  std::string out = is_wide ? name + "\n" + std::string(kWidestName, ' ') : fmt::format("{:<13}", name);
   out += fmt::format(" {:<9}", judgement(result, rank));
   if (row.in_odometry) {
     out += fmt::format(" {:>7} {:>5}",
