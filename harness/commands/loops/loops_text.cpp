@@ -80,7 +80,8 @@ std::string row_text(const LoopsResult& result, std::size_t rank, bool is_wide) 
   const std::size_t k = result.ledger.suspects[rank];
   const LedgerRow& row = result.ledger.rows[k];
   const std::string name = closure_name(result.problem, k);
-  std::string out = is_wide ? name + "\n" + std::string(kWidestName, ' ') : fmt::format("{:<13}", name);
+  std::string out =
+      is_wide ? name + "\n" + std::string(kWidestName, ' ') : fmt::format("{:<13}", name);
   out += fmt::format(" {:<9}", judgement(result, rank));
   if (row.in_odometry) {
     out += fmt::format(" {:>7} {:>5}",
