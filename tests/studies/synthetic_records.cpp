@@ -138,7 +138,7 @@ Observations observations(const Truth& truth, const Shape& shape, std::mt19937_6
     const std::size_t sequences = truth.sequences.size();
     const std::size_t sequence = sequences == 0 ? group : group % sequences;
     const std::string name = std::to_string(group);
-    out.runs.push_back({name, std::to_string(sequence), name, ""});
+    out.runs.push_back({name, std::to_string(sequence), name, "", false, ""});
     for (std::size_t m = 0; m < truth.effects.size(); ++m) {
       const double effect =
           truth.effects[m] + (sequences == 0 ? 0.0 : truth.sequences[sequence][m]);
