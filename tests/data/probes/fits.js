@@ -40,7 +40,7 @@ if (document.querySelectorAll("#closures-map .loop").length < 1) said.push("no c
 const ledger = [...document.querySelectorAll("#closures-rows tbody tr")].map((row) => row.cells[3].textContent);
 if (ledger.length < 1 || ledger.some((loop) => !/^[0-9.]+$/.test(loop))) said.push("lengths of loops: " + ledger);
 const sentence = document.getElementById("closures-verdict").textContent;
-if (!/places|closures? at/.test(sentence) || /undefined/.test(sentence)) said.push("verdict: " + sentence);
+if (!/places?\b|closures? (agree|contradict)/.test(sentence) || /undefined/.test(sentence)) said.push("verdict: " + sentence);
 const dark = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 const option = document.querySelector("#controls select").selectedOptions[0].textContent;
 document.title = `${wide} ${dark} ${option}: ` + (said.join("; ") || "well");
