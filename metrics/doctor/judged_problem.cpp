@@ -14,7 +14,7 @@
 namespace loopbench::metrics {
 namespace {
 
-constexpr std::size_t kFewest = 4;  // closures that show more than their own deviations
+constexpr std::size_t kFewestJudged = 4;  // closures that show more than their own deviations
 
 /// Closures are sorted by their ends.
 void remove_repeated(std::vector<Edge>& closures) {
@@ -50,7 +50,7 @@ bool JudgedProblem::is_as_stated() const {
   constexpr double kUsual = 3.0;      // stated deviations are mostly right within this factor
   constexpr double kNearlyAll = 0.8;  // of the closures
   // Three closures of a wrong convention can agree, with a larger deviation of their own.
-  if (!is_decided() || judgement_->agreeing < kFewest) return false;
+  if (!is_decided() || judgement_->agreeing < kFewestJudged) return false;
   const methods::EstimatedFactors& of = judgement_->factors;
   return std::max({of.translation, of.rotation, of.closures}) < kUsual &&
          static_cast<double>(judgement_->agreeing) >=
@@ -72,7 +72,7 @@ std::vector<InputFinding> JudgedProblem::findings() const {
 std::optional<InputFinding> JudgedProblem::gap(bool is_drift_known) const {
   constexpr double kSure = 4.605170185988091;  // ln 100
   constexpr double kMostDrift = 0.35;          // of the length of a loop
-  const bool needs_gap = !is_drift_known || problem_.closures.size() < kFewest;
+  const bool needs_gap = !is_drift_known || problem_.closures.size() < kFewestJudged;
   const std::vector<double> at = needs_gap ? distances(problem_) : std::vector<double>{};
   std::vector<std::size_t> found = methods::disagreeing_closures(*judgement_);
   std::erase_if(found, [&](std::size_t k) {

@@ -53,7 +53,7 @@ TEST(Assertion, IsDecidedByTheTestWithoutAPercentage) {
 TEST(Assertion, HasTheComparisonWithItsSecondMethod) {
   EXPECT_EQ(why("dual is at least 55 % below raw"), "");  // 0.45 to 0.415
   EXPECT_EQ(why("dual is at least 56 % below raw"),
-            "measured 57 % below raw (95 %: 56 to 58), p = 0.016; over 8 runs of 2 sequences");
+            "measured 57 % below raw (95 %: 55 to 58), p = 0.016; over 8 runs of 2 sequences");
   EXPECT_EQ(why("uniform is not shown to differ from copy"), "");
   EXPECT_NE(why("raw is at most 100.1 % above dual"), "");
 }

@@ -76,7 +76,7 @@ TEST(VerdictSentence, MarksTimesThatProgramsState) {
   const std::vector<Comparison> all = against_raw(records);
   const Verdict v = verdict_of(all[0], all);
   EXPECT_EQ(v.sentence.find("with a smoother"), std::string::npos) << v.sentence;
-  for (const char* const name : {"dual + dm_n3 (s)", " % below raw (s) ("}) {
+  for (const char* const name : {"dm_n3 (s)", " % below raw (s) ("}) {
     EXPECT_NE(v.sentence.find(name), std::string::npos) << v.sentence;
   }
   EXPECT_NE(v.legend.find("(s): as the program states it"), std::string::npos) << v.legend;
