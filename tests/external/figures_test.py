@@ -125,7 +125,7 @@ class Figures(unittest.TestCase):
     def test_repeat_and_alignment_are_stated(self):
         self.sweep(ROOM % "a", more="repeats: 2\nprotocol: {align: sim3}\n")
         self.call("plot r -o f --panels plane --format svg")
-        self.expect_in("f/01_a_trajectories.svg", ">a, repeat 0 (first of 2), aligned by rotation, translation and scale<")
+        self.expect_in("f/01_a_trajectories.svg", ">a, repeat 0 (first of 2), aligned by rotation, translation<")
 
     def test_sequences_panels_and_size_are_selected(self):
         self.sweep(ROOM % "'off|ice_&%<b>'" + "," + ROOM % "b", "raw, uniform")

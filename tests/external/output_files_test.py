@@ -20,7 +20,8 @@ class OutputFiles(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
         for file in Path(EXAMPLE).iterdir():
-            shutil.copy(file, self.folder)
+            if file.is_file():
+                shutil.copy(file, self.folder)
 
     def call(self, line, code=0):
         done = subprocess.run([PROGRAM, *line.split()], cwd=self.folder, capture_output=True, text=True)

@@ -22,7 +22,8 @@ class Robustness(unittest.TestCase):
         self.folder = Path(temporary.name)
         (self.folder / "tmp").mkdir()
         for file in Path(EXAMPLE).iterdir():
-            shutil.copy(file, self.folder)
+            if file.is_file():
+                shutil.copy(file, self.folder)
         self.environment = os.environ | {"TMPDIR": str(self.folder / "tmp"), "LOOPBENCH_CACHE": str(self.folder / "cache")}
 
     def write(self, name, text):

@@ -189,7 +189,7 @@ def _draw_ratio(axes: Any, data: Data, size: Sequence[float]) -> None:
     baseline = data["comparison"]["baseline"]
     baseline = data["names"].get(baseline, baseline)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda ratio, _: f"{100.0 * (ratio - 1.0):+.3g}"))
-    text = f"change to {_short(baseline, 24)} [%]: {_label(data, False)}"
+    text = f"change to {_short(baseline, 20)} [%]: {_label(data, False)}"
     axes.set_xlabel(text, parse_math=False, loc="right")
 
 
