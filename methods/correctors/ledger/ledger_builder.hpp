@@ -19,7 +19,7 @@
 
 namespace loopbench::methods {
 
-using Parts = std::vector<std::vector<std::size_t>>;
+using ClosureParts = std::vector<std::vector<std::size_t>>;
 
 /// A problem, its minimum, and what its closures are without some of them.
 template <class G>
@@ -131,7 +131,7 @@ class LedgerBuilder {
 
   /// `index`: of each closure of the linearised problem in the whole one; `parts`: of the former.
   void add_predictions(const Linearised<G>& from,
-                       const Parts& parts,
+                       const ClosureParts& parts,
                        const std::vector<std::size_t>& index) {
     for (const std::vector<std::size_t>& part : parts) {
       const std::vector<LeftOut<G>> without = from.left_out.without(part);
@@ -150,7 +150,7 @@ class LedgerBuilder {
       (out_.finding(k) == ClosureFinding::agrees ? index : others).push_back(k);
     }
     Problem trusted = with_bounded_closures(trusted_problem(problem_, out_));
-    const Parts parts = closure_parts(trusted.closures, part_size());
+    const ClosureParts parts = closure_parts(trusted.closures, part_size());
     Pairs pairs = pairs_within(trusted.closures, parts);
     for (const std::size_t k : others) {
       pairs.emplace_back(problem_.closures[k].from, problem_.closures[k].to);
@@ -183,7 +183,7 @@ class LedgerBuilder {
   }
 
   void summarise() {
-    Parts checked;
+    ClosureParts checked;
     for (const std::vector<std::size_t>& part : parts_) {
       std::vector<std::size_t> members;
       for (const std::size_t k : part) {
@@ -260,7 +260,7 @@ class LedgerBuilder {
 
   const LedgerSettings& settings_;
   Problem problem_;
-  Parts parts_;
+  ClosureParts parts_;
   ClosureLedger out_;
 };
 
