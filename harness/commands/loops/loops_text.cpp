@@ -37,7 +37,7 @@ Json keyframe_json(const Problem& problem, std::size_t keyframe) {
   return shown_stamp(problem.keyframes[keyframe].stamp);
 }
 
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json steps_json(const LoopsResult& result) {
   Json out = Json::array();
@@ -45,9 +45,9 @@ Json steps_json(const LoopsResult& result) {
   for (const methods::FreedStep& step : result.ledger.judgement->steps) {
     out.push_back({{"from", keyframe_json(result.problem, step.from)},
                    {"to", keyframe_json(result.problem, step.from + 1)},
-                   {"metres", finite(step.metres)},
-                   {"degrees", finite(step.degrees)},
-                   {"inflation", finite(step.inflation)}});
+                   {"metres", number_or_null(step.metres)},
+                   {"degrees", number_or_null(step.degrees)},
+                   {"inflation", number_or_null(step.inflation)}});
   }
   return out;
 }
@@ -162,7 +162,7 @@ std::string json(const LoopsResult& result, const std::optional<methods::NextClo
            {"sentence", verdict_text(result)},
            {"places", ledger.places},
            {"better_places", ledger.better_places},
-           {"ratio", ledger.places > 1 ? finite(ledger.ratio) : Json()},
+           {"ratio", ledger.places > 1 ? number_or_null(ledger.ratio) : Json()},
            {"covered", ledger.covered},
            {"steps", steps_json(result)},
            {"closures", Json::array()}};
