@@ -50,7 +50,8 @@ bool JudgedProblem::is_as_stated() const {
   constexpr double kUsual = 3.0;      // stated deviations are mostly right within this factor
   constexpr double kNearlyAll = 0.8;  // of the closures
   // Three closures of a wrong convention can agree, with a larger deviation of their own.
-  if (!is_decided() || judgement_->agreeing < kFewestJudged) return false;
+  if (!is_decided() || judgement_->agreeing < kFewestJudged || !judgement_->steps.empty())
+    return false;
   const methods::EstimatedFactors& of = judgement_->factors;
   return std::max({of.translation, of.rotation, of.closures}) < kUsual &&
          static_cast<double>(judgement_->agreeing) >=

@@ -25,7 +25,7 @@ struct TestedError {
   double spread = 0.0;
 };
 
-std::optional<TestedError> error_of(const Trajectory& reference, const Trajectory& estimate) {
+std::optional<TestedError> tested_error(const Trajectory& reference, const Trajectory& estimate) {
   const Paired poses = common_poses(reference, estimate);
   if (poses.estimate.size() < kFewestCommonPoses) return std::nullopt;
   const Agreement found = agreement(poses);
@@ -129,7 +129,7 @@ std::optional<InputFinding> check_rows(const Trajectory& reference,
                                        bool has_stamps) {
   constexpr std::size_t kMostRows = 200'000;  // reading them costs more than these checks
   if (std::max(reference.size(), estimate.size()) > kMostRows) return std::nullopt;
-  const auto before = error_of(reference, estimate);
+  const auto before = tested_error(reference, estimate);
   if (!before) return std::nullopt;
   const bool of_rows = !has_stamps && reference.size() == estimate.size();
   for (const RowRepair& repair : row_repairs(of_rows)) {
@@ -138,7 +138,8 @@ std::optional<InputFinding> check_rows(const Trajectory& reference,
       const Trajectory& file = of_reference ? reference : estimate;
       if (needs_rotations && lacks_rotations(file)) continue;
       const Trajectory changed = repair.change(file);
-      const auto after = of_reference ? error_of(changed, estimate) : error_of(reference, changed);
+      const auto after =
+          of_reference ? tested_error(changed, estimate) : tested_error(reference, changed);
       if (!after || !(after->spread > 0.0)) continue;
       const double was = before->metres / before->spread, is = after->metres / after->spread;
       if (!(is < kMostAfterRows * was && is < kOfSpread)) continue;
@@ -160,7 +161,7 @@ std::optional<InputFinding> check_rows(const Trajectory& reference,
 }
 
 std::optional<InputFinding> check_shear(const Paired& poses) {
-  constexpr double kMostAfter = 0.2, kLeastSpread = 0.03, kUnequal = 1.05;
+  constexpr double kMostAfter = 0.2, kLeastSpread = 0.03, kUnequal = 1.05, kFlat = 0.1;
   const Paired fitted = fitted_part(poses);
   const auto count = static_cast<Eigen::Index>(fitted.estimate.size());
   if (fitted.estimate.size() < kFewestCommonPoses) return std::nullopt;
@@ -198,7 +199,9 @@ std::optional<InputFinding> check_shear(const Paired& poses) {
   map.translation() = of_y - linear * of_x;
   Vector3 sizes = singular_values(linear) / scale;
   const double was = position_error(poses, similarity(poses)), is = position_error(poses, map);
-  if (!(is < kMostAfter * was) || sizes[0] < kUnequal * sizes[2]) return std::nullopt;
+  // An axis that nearly vanishes is noise of the estimate across a plane.
+  if (!(is < kMostAfter * was) || sizes[0] < kUnequal * sizes[2] || sizes[2] < kFlat * sizes[0])
+    return std::nullopt;
   return InputFinding{
       Fault::sheared,
       fmt::format("the positions agree if axes have different units, with ratios {:.3f} (singular "

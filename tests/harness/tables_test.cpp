@@ -275,7 +275,7 @@ TEST(Csv, QuotesAndKeepsFullPrecision) {
   std::vector<Record> records{ate("a, \"b\"", 0.1)};
   const std::string text = csv(records);
   EXPECT_NE(text.find("\nroom,0,\"a, "
-                      "\"\"b\"\"\",,false,false,false,\"evo (align=se3, "
+                      "\"\"b\"\"\",,false,false,\"evo (align=se3, "
                       "first=10)\",,dense,ate,ate,translation,3d,m,lower,,0,0.1,"),
             std::string::npos)
       << text;

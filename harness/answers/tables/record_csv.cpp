@@ -50,6 +50,7 @@ std::vector<std::string> fields_of(const Record& r) {
   score(fmt::format("{}", r.pairs));
   score(fmt::format("{}", r.possible));
   out.insert(out.end(), {number(r.cell->milliseconds()), quoted(to_text(r.status)), quoted(r.why)});
+  out.push_back(field_text(r.cell->stated_times));  // new columns follow the old ones
   return out;
 }
 
@@ -91,7 +92,7 @@ std::string rows_header() {
   for (const KindField& each : kKindFields) out += std::string(each.name) + ",";
   out += "better,target,count,";
   for (const auto& each : metrics::kStatisticFields) out += std::string(each.name) + ",";
-  return out + "pairs,possible,milliseconds,status,why\n";
+  return out + "pairs,possible,milliseconds,status,why,stated_times\n";
 }
 
 std::string csv_row(const Record& record) {

@@ -41,8 +41,7 @@ void fields(Row& c, Visit&& visit) {
         c.oracle);
   visit(CellColumn{"worker", "isolated | in process, with \", serial\", \", pinned\""}, c.worker);
   visit(CellColumn{"serial", "1: no other cell of the sweep ran at the same time"}, c.serial);
-  visit(CellColumn{"stated_times", "1: the times are statements of a program", "stated_times"},
-        c.stated_times);
+  visit(CellColumn{"stated_times", "1: the times are statements of a program"}, c.stated_times);
   visit(CellColumn{"runs", "timed runs of the method"}, c.runs);
   visit(CellColumn{"seconds_median", "wall time of one run"}, c.seconds);
   visit(CellColumn{"seconds_min", ""}, c.seconds_min);
