@@ -141,8 +141,10 @@ void add_antenna(std::vector<Repair>& to, const Paired& poses) {
 std::optional<InputFinding> apply_best_repair(Paired& poses,
                                               const std::vector<InputFinding>& found,
                                               bool has_positions_only) {
-  constexpr double kLeastGain = 0.7, kMostAfter = 0.75;            // a factor of 2 in the errors
-  constexpr double kLeastOfLeverArm = 0.2, kMostOfLeverArm = 0.6;  // drift resembles lever arms
+  constexpr double kLeastGain = 0.7, kMostAfter = 0.75;  // a factor of 2 in the errors
+  // Drift resembles lever arms, even more where rotations cannot contradict them.
+  constexpr double kLeastOfLeverArm = 0.2;
+  const double most_of_lever_arm = has_positions_only ? 0.4 : 0.6;
   const Agreement before = agreement(poses);
   const bool is_good = before.is_good();
   const Paired fitted = fitted_part(poses);
@@ -167,7 +169,7 @@ std::optional<InputFinding> apply_best_repair(Paired& poses,
     const double gain = before.cost() - after.cost() - repair.penalty;
     if (gain < std::max(largest, repair.is_lever_arm ? kLeastOfLeverArm : kLeastGain)) continue;
     Improvement change = improvement(before, after);
-    if (change.ratio > (repair.is_lever_arm ? kMostOfLeverArm : kMostAfter)) continue;
+    if (change.ratio > (repair.is_lever_arm ? most_of_lever_arm : kMostAfter)) continue;
     largest = gain;
     best = &repair;
     gained = std::move(change);

@@ -219,7 +219,7 @@ std::vector<Table> answer(const std::vector<Comparison>& all) {
   const Comparison& first = found != nullptr ? *found : all.front();
   std::vector<Table> out{verdict_table(verdict_of(first, all))};
   if (!first.methods.empty()) out.push_back(table_view(first));
-  Table others{.title = "Other scores, which --where selects", .note_width = kNoteWidth};
+  Table others{.title = "Other scores", .note_width = kNoteWidth};
   for (const Comparison& c : all) {
     if (&c != &first) others.notes.push_back(verdict_of(c, all).sentence);
   }
