@@ -68,18 +68,22 @@ std::vector<InputFinding> JudgedProblem::findings() const {
   return out;
 }
 
-/// Closures that are 100 times likelier outliers. Where there are few, or the stated deviations are
-/// far from those found, also with a gap that no odometry leaves.
+/// Closures that are 100 times likelier outliers anywhere in the map. Those with a few times their
+/// deviation have heavy tails on most real graphs, and small ones do little harm. Where there are
+/// few, or the stated deviations are far from those found, also with a gap that no odometry leaves.
 std::optional<InputFinding> JudgedProblem::gap(bool is_drift_known) const {
   constexpr double kSure = 4.605170185988091;  // ln 100
   constexpr double kMostDrift = 0.35;          // of the length of a loop
+  constexpr double kLeastGap = 0.3;            // [m] or [rad]
   const bool needs_gap = !is_drift_known || problem_.closures.size() < kFewestJudged;
   const std::vector<double> at = needs_gap ? distances(problem_) : std::vector<double>{};
   std::vector<std::size_t> found = methods::disagreeing_closures(*judgement_);
   std::erase_if(found, [&](std::size_t k) {
     const methods::JudgedClosure& each = judgement_->closures[k];
     const Edge& edge = problem_.closures[k];
-    return each.log_odds > -kSure ||
+    const bool has_slipped = each.finding == methods::ClosureFinding::slipped;
+    const bool is_small = each.metres < kLeastGap && each.degrees < kLeastGap * 180.0 / M_PI;
+    return each.log_odds > -kSure || has_slipped || is_small ||
            (needs_gap && each.metres < kMostDrift * (at[edge.to] - at[edge.from]));
   });
   if (found.empty()) return std::nullopt;

@@ -56,6 +56,17 @@ inline Trajectory solved_roughly(const Problem& agreed) {
   }
 }
 
+/// Each closure left out; empty if the information of some edges is not positive definite.
+template <class G>
+std::vector<std::optional<LeftOut<G>>> left_out_each(const std::vector<ScaledPose>& poses,
+                                                     const Problem& agreed) {
+  try {
+    return left_out_closures<G>(poses, agreed);
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
 /// Drops closures that were only compared with the core and contradict others: in the solution
 /// with all that agree, those that are likelier outliers given all others, the worst first.
 template <class G>
@@ -67,7 +78,8 @@ void drop_inconsistent(const Problem& problem, double log_uniform, ClosureJudgem
     for (const StampedPose& each : solved_roughly(agreed))
       poses.push_back({each.world_from_body, 1.0});
     if (poses.empty() || agreed.closures.empty()) return;
-    const auto without = left_out_closures<G>(poses, agreed);
+    const auto without = left_out_each<G>(poses, agreed);
+    if (without.empty()) return;
     if (round == 0) judgement.factors.closures *= std::sqrt(closure_variance_factor(without));
     std::vector<double> log_odds;  // of an outlier
     for (std::size_t k = 0; k < without.size(); ++k) {
