@@ -132,8 +132,23 @@ double position_error(const PartedPairs& parted) {
   return std::sqrt(squares / count);
 }
 
+namespace {
+
+/// Position error with as many parts that begin between the jumps: where it is as small, the parts
+/// follow drift, not other frames.
+double error_of_other_parts(const Paired& pairs, const std::vector<std::size_t>& begins) {
+  std::vector<std::size_t> middles;
+  for (const RowRange& part : parts_at(begins, pairs.estimate.size()))
+    middles.push_back((part.begin + part.end) / 2);
+  const PartedPairs other = without_short({pairs, parts_at(middles, pairs.estimate.size())});
+  return other.parts.empty() ? 0.0 : position_error(other);
+}
+
+}  // namespace
+
 std::optional<InputFinding> join_maps(PartedPairs& parted, const Trajectory& file, double most) {
   constexpr std::size_t kParts = 20;
+  constexpr double kMostOfDrift = 0.5;
   const Paired& pairs = parted.pairs;
   if (pairs.estimate.size() < kFewestCommonPoses) return std::nullopt;
   const std::vector<std::size_t> begins = jumps_of(pairs);
@@ -151,6 +166,7 @@ std::optional<InputFinding> join_maps(PartedPairs& parted, const Trajectory& fil
     restarts |= is_origin(first.world_from_body);
     if (places.size() < kListed) places.push_back(place(file, row_at(file, first.stamp)));
   }
+  if (!restarts && !(is < kMostOfDrift * error_of_other_parts(pairs, begins))) return std::nullopt;
   if (found.parts.size() > kListed + 1)
     places.push_back(fmt::format("{} more", found.parts.size() - 1 - kListed));
   InputFinding out{
