@@ -68,23 +68,25 @@ std::vector<InputFinding> JudgedProblem::findings() const {
   return out;
 }
 
-/// Closures that are 100 times likelier outliers anywhere in the map. Those with a few times their
-/// deviation have heavy tails on most real graphs, and small ones do little harm. Where there are
-/// few, or the stated deviations are far from those found, also with a gap that no odometry leaves.
+/// Closures that are 100 times likelier outliers. Most real graphs have some with a few times their
+/// deviation, which are named if they are large for their loop; small ones do little harm. Where
+/// there are few, or the stated deviations are far from those found, also with a gap that no
+/// odometry leaves.
 std::optional<InputFinding> JudgedProblem::gap(bool is_drift_known) const {
   constexpr double kSure = 4.605170185988091;  // ln 100
   constexpr double kMostDrift = 0.35;          // of the length of a loop
+  constexpr double kLeastSlip = 0.05;          // of the length of a loop
   constexpr double kLeastGap = 0.3;            // [m] or [rad]
   const bool needs_gap = !is_drift_known || problem_.closures.size() < kFewestJudged;
-  const std::vector<double> at = needs_gap ? distances(problem_) : std::vector<double>{};
+  const std::vector<double> at = distances(problem_);
   std::vector<std::size_t> found = methods::disagreeing_closures(*judgement_);
   std::erase_if(found, [&](std::size_t k) {
     const methods::JudgedClosure& each = judgement_->closures[k];
-    const Edge& edge = problem_.closures[k];
-    const bool has_slipped = each.finding == methods::ClosureFinding::slipped;
+    const double length = at[problem_.closures[k].to] - at[problem_.closures[k].from];
+    double least = each.finding == methods::ClosureFinding::slipped ? kLeastSlip * length : 0.0;
+    if (needs_gap) least = kMostDrift * length;
     const bool is_small = each.metres < kLeastGap && each.degrees < kLeastGap * 180.0 / M_PI;
-    return each.log_odds > -kSure || has_slipped || is_small ||
-           (needs_gap && each.metres < kMostDrift * (at[edge.to] - at[edge.from]));
+    return each.log_odds > -kSure || is_small || each.metres < least;
   });
   if (found.empty()) return std::nullopt;
   const double most = -judgement_->closures[found.front()].log_odds / kSure;
