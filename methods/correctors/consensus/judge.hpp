@@ -252,7 +252,8 @@ class Judge {
     closure.finding =
         outlier > model.log_uniform() ? ClosureFinding::slipped : ClosureFinding::contradicts;
     // The error is a motion of the chain in the world; at the end of the closure:
-    const auto gap = G::adjoint(G::inverse(model.poses()[model.chain().loops[a].to])) * error;
+    const typename G::Tangent gap =
+        G::adjoint(G::inverse(model.poses()[model.chain().loops[a].to])) * error;
     state_size(G::exp(gap), closure);
   }
 
