@@ -39,7 +39,7 @@ void declare_reading(CLI::App& command,
                    "Drop rows with numbers that are not finite, or zero quaternions");
   add(command, "--tf PARENT.CHILD", reading.tf, "Frames in the TF tree of bags without a topic");
   command.add_flag("--all-topics", reading.all_topics, "All trajectories of bags without a topic");
-  for (const std::string& name : without) command.remove_option(command.get_option(name));
+  for (const std::string& name : without) remove_option(command, name);
 }
 
 void declare_fields(CLI::App& command,

@@ -176,6 +176,14 @@ CLI::Option* updates(CLI::App& command,
   return option;
 }
 
+void remove_option(CLI::App& command, const std::string& name) {
+  CLI::Option* const option = command.get_option(name);
+  std::erase_if(declared()[&command].uses, [&](const FileUse& use) {
+    return use.option == option || use.only_with == option;
+  });
+  command.remove_option(option);
+}
+
 void check_declared_files(const CLI::App& command) {
   checked() = {};
   const auto found = declared().find(&command);

@@ -36,6 +36,9 @@ CLI::Option* updates(CLI::App& command,
                      FileKind kind,
                      const CLI::Option* flag);
 
+/// Removes an option, and what was declared of its files.
+void remove_option(CLI::App& command, const std::string& name);
+
 /// Adds --force to a command that computes the names of its files.
 void declare_force(CLI::App& command);
 

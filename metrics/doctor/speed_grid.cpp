@@ -75,6 +75,7 @@ template <class Columns>
 Columns window_sums(const Columns& all) {
   const Index count = std::max<Index>(0, all.cols() - kWindowSteps + 1);
   Columns out = Columns::Zero(all.rows(), count);
+  if (count == 0) return out;
   for (Index k = 0; k < kWindowSteps; ++k) out += all.middleCols(k, count);
   return out;
 }

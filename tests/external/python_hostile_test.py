@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from python_support import sweep
+from python_support import has, sweep
 
 import numpy as np
 
@@ -38,6 +38,7 @@ class Misbehaving(unittest.TestCase):
             self.assertIn(why or "", rows[name]["cell_why"])
 
 
+@unittest.skipUnless(has("loopbench._core"), "the compiled module is not built")
 class Arrays(unittest.TestCase):
     """Numbers that are not there: NaN from functions, and masked rows."""
 

@@ -87,7 +87,7 @@ void add_loops(CLI::App& app, int& exit_code) {
           "Map of the keyframes with the closures: .pdf, .svg, .png or .pgf (default: FILE.pdf)"),
       FileKind::figure);
   declare_figures(*command, a->figure, "--plot");
-  command->remove_option(command->get_option("--labels"));  // colours have a fixed meaning
+  remove_option(*command, "--labels");  // colours have a fixed meaning
   command->add_flag("--json", a->json, "Print JSON instead of text");
   command->callback([a, &exit_code] { exit_code = run_loops(*a); });
 }
