@@ -27,6 +27,8 @@ check() {
 [[ -e $quickstart/results.sqlite ]] || "$loopbench" run "$root/configs/quickstart.yaml" --out "$quickstart" >/dev/null
 check "$quickstart" times=dense,unit=m 'dual is at least 15 % below raw'
 check "$quickstart" times=keyframes,unit=m 'dual is below two_pass'
+# Closures are true and covariances right there: estimating both costs nothing.
+check "$quickstart" times=dense,unit=m 'consensus is at most 2 % above pose_graph'
 # Of the mean over the four sequences; nearly all of it is on the one with sparse keyframes.
 check "$quickstart" times=dense,unit=m 'dual + dm_robust is below dual'
 check "$quickstart" times=keyframes,unit=m 'dual + smoothing_spline is at most 1 % above dual'

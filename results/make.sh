@@ -4,7 +4,7 @@
 # Usage: make.sh --data DIR [--exam DIR] [LOOPBENCH]. With --exam, DIR/exam has unseen recordings in the folders of
 # configs/held_out.yaml (blocks without a folder are left out, trusted is needed); its results go to results/exam.
 # The picture of the README: ./run.sh run configs/quickstart.yaml && ./run.sh report results/quickstart -o report.html
-# chromium --headless --hide-scrollbars --window-size=1280,880 --screenshot=results/quickstart/report.png report.html
+# chromium --headless --hide-scrollbars --window-size=1280,925 --screenshot=results/quickstart/report.png report.html
 set -euo pipefail
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
 data=${LOOPBENCH_DATA:-} exam=''
