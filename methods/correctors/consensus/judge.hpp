@@ -12,6 +12,7 @@
 #include "methods/correctors/consensus/derived_closures.hpp"
 #include "methods/correctors/consensus/judgement.hpp"
 #include "methods/correctors/consensus/placed_parts.hpp"
+#include "methods/correctors/consensus/repeated_closures.hpp"
 #include "methods/correctors/consensus/search.hpp"
 #include "methods/correctors/consensus/solution_check.hpp"
 #include "methods/correctors/consensus/step_search.hpp"
@@ -64,14 +65,15 @@ std::vector<typename G::Element> transferred(const ReducedChain<G>& to,
 template <class G>
 class Judge {
  public:
-  explicit Judge(const Problem& problem) : problem_(problem) {
+  explicit Judge(const Problem& problem)
+      : problem_(problem), repeated_(repeated_closures(problem)) {
     out_.closures.resize(problem.closures.size());
     out_.evidence_needed = kLogNeeded;
     const std::vector<bool> is_derived = derived_closures(problem);
     for (std::size_t k = 0; k < is_derived.size(); ++k) {
       if (is_derived[k]) {
         out_.closures[k].finding = ClosureFinding::agrees;
-      } else {
+      } else if (repeated_[k] == k) {
         measured_.push_back(k);
       }
     }
@@ -266,6 +268,9 @@ class Judge {
   }
 
   void decide_by(std::size_t kept) {
+    for (std::size_t k = 0; k < repeated_.size(); ++k) {
+      out_.closures[k] = out_.closures[repeated_[k]];
+    }
     for (const JudgedClosure& each : out_.closures) {
       out_.agreeing += each.finding == ClosureFinding::agrees ? 1 : 0;
     }
@@ -273,15 +278,17 @@ class Judge {
     const double lead = out_.evidence - rival;
     out_.outcome = ConsensusOutcome::decided;
     if (rival > 0.0 && lead < kLogNeeded) out_.outcome = ConsensusOutcome::rival;
-    if (kept > 0 && out_.evidence < kLogNeeded) out_.outcome = ConsensusOutcome::few;
+    if (!measured_.empty() && out_.evidence < kLogNeeded) out_.outcome = ConsensusOutcome::few;
     if (out_.is_decided()) return;
     out_.steps.clear();
-    const double each = std::max(1.0, out_.evidence / static_cast<double>(kept));
+    const double each =
+        std::max(1.0, out_.evidence / static_cast<double>(std::max<std::size_t>(1, kept)));
     out_.more_needed = static_cast<std::size_t>(std::ceil((kLogNeeded - lead) / each));
   }
 
   const Problem& problem_;
-  std::vector<std::size_t> measured_;  ///< closures that are not derived from the odometry
+  std::vector<std::size_t> repeated_;  ///< closure that each one repeats
+  std::vector<std::size_t> measured_;  ///< closures that neither repeat nor come from the odometry
   ReducedChain<G> full_, rest_;
   ClosureJudgement out_;
 };

@@ -68,7 +68,7 @@ void drop_outliers(Explanation<G>& of) {
     for (std::size_t i = 0; i < of.kept.size(); ++i) {
       if (!(log_odds[i] > limit)) rest.push_back(of.kept[i]);
     }
-    if (rest.size() == of.kept.size()) return;
+    if (rest.empty() || rest.size() == of.kept.size()) return;
     of.kept = std::move(rest);
   }
 }
