@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "harness/answers/compare/stated.hpp"
 #include "harness/answers/compare/verdict.hpp"
-#include "methods/method.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -33,18 +31,6 @@ bool are_near(const VerdictGroup& a, const VerdictGroup& b, double points) {
     out = out && are_near(a.by_sequence[s], b.by_sequence[s], points);
   }
   return out;
-}
-
-/// Whether it is the user's own: a stage runs a program, or is not one of ours, but a plugin's.
-bool is_own(const MethodVerdict& m) {
-  static const std::set<std::string> kOurs = [] {
-    std::set<std::string> names{""};
-    for (const methods::MethodEntry& entry : methods::methods()) names.insert(entry.name);
-    return names;
-  }();
-  const auto is_ours = [](const SharedText& stage) { return kOurs.contains(stage.text()); };
-  return !m.parts.program.empty() || !is_ours(m.parts.replay) || !is_ours(m.parts.corrector) ||
-         !is_ours(m.parts.smoother);
 }
 
 /// The first place, and neighbours that differ by at most `points` from all of their group.
@@ -177,11 +163,11 @@ bool is_named_by_stages(const MethodVerdict& m) {
 
 /// The names of a group, the user's own methods first.
 std::string marked_names(std::vector<const MethodVerdict*> members) {
-  std::ranges::stable_sort(members, {}, [](const MethodVerdict* m) { return !is_own(*m); });
+  std::ranges::stable_sort(members, {}, [](const MethodVerdict* m) { return !is_own(m->parts); });
   std::vector<MethodVerdict> marked;
   for (const MethodVerdict* m : members) {
     marked.push_back(*m);
-    if (is_own(*m)) marked.back().method += " (own)";
+    if (is_own(m->parts)) marked.back().method += " (own)";
   }
   std::vector<const MethodVerdict*> all;
   for (const MethodVerdict& m : marked) all.push_back(&m);

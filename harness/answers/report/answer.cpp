@@ -33,14 +33,13 @@ std::string only_score(const ReportContent& content) {
 struct MethodRow {
   std::string method;
   std::string place = {};  ///< "= " or "> ", or empty
-  bool is_own = false;     ///< runs a program of the user
+  bool is_own = false;     ///< a program or plugin of the user
   std::vector<std::string> cells;
 };
 
-/// Whether a method runs a program of the user.
-bool runs_own_program(const ReportContent& content, const std::string& method) {
+bool is_own(const ReportContent& content, const std::string& method) {
   return std::ranges::any_of(content.cells, [&](const CellRow& cell) {
-    return cell.method == method && !cell.parts.program.empty();
+    return cell.method == method && is_own(cell.parts);
   });
 }
 
@@ -60,7 +59,7 @@ std::string rows_html(const std::string& title,
                        html_text(row.method),
                        row.is_own ? " class=\"own\"" : "",
                        html_text(row.place),
-                       row.is_own ? " <small>own program</small>" : "");
+                       row.is_own ? " <small>own</small>" : "");
     for (const std::string& cell : row.cells) out += "<td>" + html_text(cell) + "</td>";
     out += "</tr>\n";
   }
@@ -96,7 +95,7 @@ std::string methods_html(const ReportContent& content, const Comparison& c) {
     const VerdictGroup group = group_of({&m}, verdict.sequences, c.options.baseline);
     MethodRow& row = rows.emplace_back(MethodRow{.method = m.method, .cells = {}});
     if (c.can_show) row.place = m.is_worse ? "> " : "= ";
-    row.is_own = runs_own_program(content, m.method);
+    row.is_own = is_own(content, m.method);
     const bool is_baseline = m.method == c.options.baseline;
     row.cells = {m.runs == 0 ? "-" : fixed(m.median, decimals(largest)),
                  is_baseline ? "" : change_text(group.all, 0.0),
@@ -109,7 +108,7 @@ std::string methods_html(const ReportContent& content, const Comparison& c) {
   for (const Gap& gap : c.gaps) {
     if (gap.is_ranked) continue;
     MethodRow& row = rows.emplace_back(MethodRow{.method = gap.method, .cells = {}});
-    row.is_own = runs_own_program(content, gap.method);
+    row.is_own = is_own(content, gap.method);
     row.cells.resize(headings.size() - 1, "-");
     notes.push_back(gap.method + ": " + gap.why);
   }
@@ -152,10 +151,9 @@ std::string errors_html(const ReportContent& content) {
     const double mean = has_value ? metrics::mean(found->second) : HUGE_VAL;
     const std::string number = has_value ? fixed(mean, decimals(largest)) : "-";
     const std::string runs = std::to_string(has_value ? found->second.size() : 0);
-    sorted.emplace_back(mean,
-                        MethodRow{.method = method,
-                                  .is_own = runs_own_program(content, method),
-                                  .cells = {number, runs}});
+    sorted.emplace_back(
+        mean,
+        MethodRow{.method = method, .is_own = is_own(content, method), .cells = {number, runs}});
   }
   std::ranges::stable_sort(sorted, {}, [](const auto& each) { return each.first; });
   std::vector<MethodRow> rows;

@@ -15,4 +15,7 @@ struct MethodParts {
   friend bool operator==(const MethodParts&, const MethodParts&) = default;
 };
 
+/// Whether a method is the user's own: a stage runs a program, or is a plugin's.
+bool is_own(const MethodParts& parts);
+
 }  // namespace loopbench::harness
