@@ -129,10 +129,12 @@ class LedgerBuilder {
     return out;
   }
 
-  /// `index`: of each closure of the linearised problem in the whole one; `parts`: of the former.
+  /// `index`: of each closure of the linearised problem in the whole one; `parts`: of the former. A
+  /// single part is predicted by the odometry alone, which its rows have.
   void add_predictions(const Linearised<G>& from,
                        const ClosureParts& parts,
                        const std::vector<std::size_t>& index) {
+    if (parts.size() < 2 && from.problem.anchors.empty()) return;
     for (const std::vector<std::size_t>& part : parts) {
       const std::vector<LeftOut<G>> without = from.left_out.without(part);
       for (std::size_t i = 0; i < without.size(); ++i) {
