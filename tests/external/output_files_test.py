@@ -83,6 +83,30 @@ class OutputFiles(unittest.TestCase):
             self.expect_kept(file, line, what)
         self.call("check r --baseline b.json --update --allow-dirty")
 
+    def test_what_sqlite_writes_beside_a_store_is_no_output(self):
+        """SQLite removes such files when it opens the store."""
+        self.call("run mine.yaml --out r")
+        before = sorted(each.name for each in (self.folder / "r").iterdir())
+        for tail in ("-journal", "-wal", "-shm"):
+            for command in ("traj convert open.txt --to tum", "table r"):
+                said = self.call(f"{command} -o r/results.sqlite{tail} --force", 2)
+                self.assertIn("is what SQLite writes beside a store", said)
+        self.assertEqual(sorted(each.name for each in (self.folder / "r").iterdir()), before)
+
+    def test_a_page_is_no_config(self):
+        """Although it contains the config of its sweep."""
+        self.call("run mine.yaml --out r")
+        self.call("report r -o page.html")
+        self.assertIn(b"datasets:", self.read("page.html"))
+        self.expect_kept("page.html", "table r -o page.html", "--force to overwrite it")
+        self.call("table r -o page.html --force")
+
+    def test_links_in_a_circle_are_not_one_file(self):
+        (self.folder / "a").symlink_to("b")
+        (self.folder / "b").symlink_to("a")
+        said = self.call("traj convert open.txt --to kitti -o a --times-out b", 2)
+        self.assertIn("Too many levels of symbolic links", said)
+
     def test_other_files_are_replaced_by_their_kind_only(self):
         self.call("run mine.yaml --out r")
         self.call("table r --format csv -o both.csv")

@@ -16,6 +16,7 @@ from pathlib import Path
 PROGRAM, PROGRAMS = (os.path.abspath(word) for word in sys.argv[1:3])
 SECRET = "7.7712345"
 NAME = f"loopbench-test-{os.getpid()}"
+BAG = Path(__file__).parents[1] / "data/fuzz/bag/valid.db3"
 
 
 class Server:
@@ -110,6 +111,48 @@ class PrivatePrograms(unittest.TestCase):
             for said in self.outputs(method):
                 self.assertNotIn(SECRET, said)
         self.assertEqual(self.select("SELECT count(*) FROM cell WHERE status = 'ok'"), [4])
+
+    def test_a_bag_with_the_reference_stays_hidden(self):
+        """Also in the folder of the program, and if its command names it."""
+        shutil.copy(BAG, self.folder / "prog/run.db3")
+        topic = "bag:prog/run.db3#/pose"
+        self.write("prog/copy.sh", "cat $3 2>/dev/null | wc -c; cp $1/keyframes.txt $2\n")
+        self.write("c.yaml", json.dumps({
+            "datasets": [{"dataset": "trajectory", "label": "a", "estimate": topic, "reference": topic}],
+            "methods": [{"method": "command", "label": "m", "run": "sh prog/copy.sh {problem} {result} prog/run.db3"}],
+            "metrics": ["path_length"], "times": "keyframes"}))
+        done = subprocess.run([PROGRAM, "run", "c.yaml", "--out", "out"], cwd=self.folder, env=self.environment,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.outputs("m"), ["output: 0"])
+
+    def test_services_in_run_do_not_answer(self):
+        folder = Path("/run") / NAME
+        try:
+            (folder / "deep").mkdir(parents=True)
+        except OSError:
+            self.skipTest("needs permission to write in /run")
+        self.addCleanup(shutil.rmtree, folder)
+        places = [folder / "service.sock", folder / "deep/service.sock"]
+        for place in places:
+            service = socket.socket(socket.AF_UNIX)
+            self.addCleanup(service.close)
+            service.bind(str(place))
+            service.listen()
+            threading.Thread(target=SERVER.tell, args=(service,), daemon=True).start()
+        self.write("prog/asks.py", f"""import shutil, socket, sys
+for place in {[str(each) for each in places]}:
+    with socket.socket(socket.AF_UNIX) as peer:
+        try:
+            peer.connect(place)
+            print('heard', peer.recv(100))
+        except OSError:
+            print('silent', end=' ')
+shutil.copy(sys.argv[1] + '/keyframes.txt', sys.argv[2])
+""")
+        self.sweep([{"method": "command", "label": "asks", "run": "python3 prog/asks.py {problem} {result}"}])
+        for said in self.outputs("asks"):
+            self.assertEqual(said.split(), ["output:", "silent", "silent"])
 
     def test_a_metric_can_leave_nothing_for_a_method(self):
         """Beside devices, in settings of the kernel and among its keys, where the programs of root can write."""
