@@ -116,12 +116,12 @@ TEST_F(Sandboxed, EndsOfProgramsAreReportedAsWithoutIt) {
 }
 
 TEST(OtherNames, AreThoseOfBindMounts) {
-  const std::string mounts =
+  const std::vector<Mount> mounts = mounts_in(
       "22 1 8:1 / / rw - ext4 /dev/sda1 rw\n"
       "30 22 8:2 / /home rw shared:1 - ext4 /dev/sda2 rw\n"
       "31 22 8:1 /srv/runs /mnt/the\\040runs rw - ext4 /dev/sda1 rw\n"
       "32 22 8:2 /ann/data /data rw - ext4 /dev/sda2 rw\n"
-      "33 22 0:5 / /proc rw - proc proc rw\n";
+      "33 22 0:5 / /proc rw - proc proc rw\n");
   using Paths = std::vector<std::filesystem::path>;
   EXPECT_EQ(other_names("/home/ann/data/gt.txt", mounts), Paths{"/data/gt.txt"});
   EXPECT_EQ(other_names("/data/gt.txt", mounts), Paths{"/home/ann/data/gt.txt"});
@@ -130,7 +130,7 @@ TEST(OtherNames, AreThoseOfBindMounts) {
   EXPECT_EQ(other_names("/mnt/the runs/x", mounts), Paths{"/srv/runs/x"});
   EXPECT_EQ(other_names("/home/ann/other", mounts), Paths{});
   EXPECT_EQ(other_names("/srv/runs2/x", mounts), Paths{});
-  EXPECT_EQ(other_names("/x", ""), Paths{});
+  EXPECT_EQ(other_names("/x", {}), Paths{});
 }
 
 TEST(FilesOfOptions, AreDataAlsoInBags) {

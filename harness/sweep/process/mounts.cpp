@@ -9,12 +9,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Mount {
-  std::string device;  ///< major:minor
-  fs::path root;       ///< of the mounted part, in its file system
-  fs::path point;
-};
-
 /// Blanks and backslashes are octal numbers there.
 std::string unescaped(const std::string& text) {
   std::string out;
@@ -22,21 +16,6 @@ std::string unescaped(const std::string& text) {
     const bool is_octal = text[i] == '\\' && i + 3 < text.size();
     out += is_octal ? static_cast<char>(std::stoi(text.substr(i + 1, 3), nullptr, 8)) : text[i];
     if (is_octal) i += 3;
-  }
-  return out;
-}
-
-std::vector<Mount> mounts_in(const std::string& text) {
-  std::vector<Mount> out;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string id, parent, root, point;
-    Mount one;
-    if (!(words >> id >> parent >> one.device >> root >> point)) continue;
-    one.root = unescaped(root);
-    one.point = unescaped(point);
-    out.push_back(std::move(one));
   }
   return out;
 }
@@ -56,17 +35,31 @@ std::optional<fs::path> below(const fs::path& folder, const fs::path& path) {
 
 }  // namespace
 
-std::vector<fs::path> other_names(const fs::path& path, const std::string& mounts) {
-  const std::vector<Mount> all = mounts_in(mounts);
+std::vector<Mount> mounts_in(const std::string& mountinfo) {
+  std::vector<Mount> out;
+  std::istringstream lines(mountinfo);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string id, parent, root, point;
+    Mount one;
+    if (!(words >> id >> parent >> one.device >> root >> point)) continue;
+    one.root = unescaped(root);
+    one.point = unescaped(point);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+std::vector<fs::path> other_names(const fs::path& path, const std::vector<Mount>& mounts) {
   const Mount* own = nullptr;  // the last one of those that are nearest
-  for (const Mount& each : all) {
+  for (const Mount& each : mounts) {
     if (!below(each.point, path)) continue;
     if (own == nullptr || below(own->point, each.point)) own = &each;
   }
   std::vector<fs::path> out;
   if (own == nullptr) return out;
   const fs::path place = joined(own->root, *below(own->point, path));
-  for (const Mount& each : all) {
+  for (const Mount& each : mounts) {
     const auto rest = below(each.root, place);
     if (&each == own || each.device != own->device || !rest) continue;
     const fs::path name = joined(each.point, *rest);

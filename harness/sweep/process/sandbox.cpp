@@ -213,10 +213,11 @@ std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
                                              const SandboxedProgram& program) {
   Views views;
   hide_temporary(views, program.writable);
-  const std::string mounts = read_system_file("/proc/self/mountinfo");
+  const std::vector<Mount> mounts = mounts_in(read_system_file("/proc/self/mountinfo"));
   for (const fs::path& path : options.hidden) {
-    hide(views, resolved(path));
-    for (const fs::path& other : other_names(resolved(path), mounts)) hide(views, other);
+    const fs::path name = resolved(path);
+    hide(views, name);
+    for (const fs::path& other : other_names(name, mounts)) hide(views, other);
   }
   show_own_folders(views, program);
   for (const fs::path& path : program.readable) views[resolved(path)] = View::readable;
