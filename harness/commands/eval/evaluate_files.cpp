@@ -94,9 +94,7 @@ void require_evaluated(const std::vector<FileEvaluation>& all) {
   if (all.size() != 1 || all.front().protocols.size() != 1) return;
   const EvaluationResult& own = all.front().protocols.front();
   if (own.why_failed.empty()) return;
-  const bool names_file = own.why_failed.find(own.estimate) != std::string::npos ||
-                          own.why_failed.find(own.reference) != std::string::npos;
-  throw InputError(names_file
+  throw InputError(own.names_files
                        ? own.why_failed
                        : own.estimate + " with reference " + own.reference + ": " + own.why_failed);
 }
@@ -183,9 +181,9 @@ Evaluations evaluated(EvaluatedSweep files,
   std::vector<FileEvaluation> all;
   for (const auto& [name, cells] : by_reference) {
     std::vector<FileEvaluation> own = evaluated_cells(cells, files, read_reference(name), estimate);
-    for (const auto& [result, protocols] : own) {
-      store.write(result);
-      summary.add(result, files.runs[result.cell.dataset].estimate);
+    for (const FileEvaluation& each : own) {
+      store.write(each.result);
+      summary.add(each, files.runs[each.result.cell.dataset].estimate);
     }
     if (!is_kept) all = std::move(own);
   }

@@ -84,11 +84,13 @@ std::string evaluated_again(const std::vector<Cell>& missing,
          " evaluated again, because options, files or the program have changed";
 }
 
-void StoreSummary::add(const CellResult& result, const std::string& estimate) {
+void StoreSummary::add(const FileEvaluation& evaluation, const std::string& estimate) {
+  const CellResult& result = evaluation.result;
   incomplete_ += result.status == Status::incomplete ? 1 : 0;
   const std::string why = why_failed(result);
-  const bool names_file = why.find(estimate) != std::string::npos;
-  if (!why.empty()) failures_.push_back(names_file ? why : estimate + ": " + why);
+  const bool names_files =
+      std::ranges::any_of(evaluation.protocols, &EvaluationResult::names_files);
+  if (!why.empty()) failures_.push_back(names_files ? why : estimate + ": " + why);
   if (!result.metadata) return;
   std::set<std::pair<NoteKind, std::string>> own;  // a file can have several notes of one kind
   for (const Note& note : result.metadata->notes) {

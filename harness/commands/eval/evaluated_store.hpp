@@ -7,6 +7,7 @@
 
 #include "harness/answers/tables/reasons.hpp"
 #include "harness/commands/eval/evaluated_sweep.hpp"
+#include "harness/commands/eval/file_evaluation.hpp"
 #include "harness/sweep/model/result.hpp"
 
 namespace loopbench::harness {
@@ -30,7 +31,7 @@ class StoreSummary {
   /// `incomplete`: runs with a low coverage that the store had.
   explicit StoreSummary(std::size_t incomplete) : incomplete_(incomplete) {}
 
-  void add(const CellResult& result, const std::string& estimate);
+  void add(const FileEvaluation& evaluation, const std::string& estimate);
 
   /// None failed, of no run a metric failed, and none has a low coverage.
   bool is_ok() const { return failures_.empty() && incomplete_ == 0; }

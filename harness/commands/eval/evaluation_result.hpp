@@ -37,6 +37,7 @@ struct EvaluationResult {
   /// the first pose of the reference file, so that all its estimates have one origin.
   std::vector<DrawnCurve> drawn;
   std::string why_failed;       ///< set if the evaluation failed
+  bool names_files = false;     ///< `why_failed` does
   std::vector<Record> records;  ///< none if the evaluation failed
 };
 

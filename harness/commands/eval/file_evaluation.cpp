@@ -162,15 +162,20 @@ FileEvaluation evaluate_file(const Cell& cell,
                              const EvaluatedSweep& files,
                              const SharedReference& reference) {
   const EvaluatedRun& run = files.runs[cell.dataset];
+  bool is_read = false;
   try {
     const EvaluatedFile estimate =
         evaluated_estimate(run.estimate, files.arguments, files.has_digits, &reference.read);
+    is_read = true;
     return evaluate_poses(cell, files, reference, estimate);
   } catch (const InputError& error) {
     FileEvaluation out = not_evaluated(cell, files);
     out.result.status = Status::failed;
     out.result.why = error.what();
-    for (EvaluationResult& own : out.protocols) own.why_failed = error.what();
+    for (EvaluationResult& own : out.protocols) {
+      own.why_failed = error.what();
+      own.names_files = !is_read;
+    }
     if (reference.content.empty()) return out;  // runs are not compared
     try {
       out.result.metadata =

@@ -48,6 +48,7 @@ struct PairEvaluation {
     failure.why = why_two_clocks(files.arguments, rules, reference.clock, estimate.clock);
     if (!failure.why.empty()) {
       failure.status = Status::failed;
+      own.names_files = true;
     } else {
       catch_errors(failure, [&] { add_paired(own, row, rules); });
       if (is_failure(failure.status)) failure.why += remedy(rules);
