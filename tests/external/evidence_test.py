@@ -20,7 +20,7 @@ from evidence_tables import chain_parts, cost_table, outlier_parts, status_text 
 DRIVE = "dataset: simulated, closures.max: 4"
 CHAINS = "".join(f"  - {{{DRIVE}, label: {odometer} {route}, group: KITTI {route}, seed: {seed}}}\n" for seed, (odometer, route) in
                  enumerate((("kiss_icp", "00"), ("kiss_icp", "08"), ("viso2", "00")), 1))
-METHODS = """methods: [raw, uniform, dual, {method: dual, label: dual rescaled, rescale: true}, pose_graph_pcm]
+METHODS = """methods: [raw, uniform, dual, {method: dual, label: dual calibrated, calibrate: true}, pose_graph_pcm]
 metrics: [ate]
 times: keyframes
 timing: 1
