@@ -14,9 +14,9 @@ from article.verdicts import table
 
 SMOOTHERS = ("tracked_frames", "cubic_spline", "gp_wnoa", "spline, quasi-keyframes", "smoother N4", "smoother M7",
              "smoother robust")
-SHOWN_ROBUST = ("dual", "pose_graph_huber", "pose_graph_gnc_tls", "pose_graph_pcm")
+SHOWN_ROBUST = ("dual", "pose_graph_huber", "pose_graph_gnc_tls", "pose_graph_pcm", "consensus")
 FALSE_CLOSURES = ("raw", "pose_graph", "pose_graph_huber", "pose_graph_cauchy", "pose_graph_dcs", "pose_graph_gnc_tls",
-                  "pose_graph_pcm")
+                  "pose_graph_pcm", "consensus")
 ROWS = """
 select cell.id, cell.position, cell.sequence, repeat, method, cell.status, cpu_seconds_median as seconds,
   peak_memory as memory, group_name as grouped, sequence.closures as closures,
