@@ -64,5 +64,18 @@ TEST(MetricResult, AValueForEachPairIsKept) {
   EXPECT_THAT(kept(3), ElementsAre());
 }
 
+TEST(Costs, CannotBeStatedByMethodsThatAreNoProgramsEither) {
+  methods::Report report;
+  report.counts = {{kProgramTime, 1e-6}, {kProgramMemory, -1.0}, {"mine", 7.0}};
+  report.phases = {{kExchangePhase, 1e6}, {kWallPhase, 1e6}, {"solve", 0.1}};
+  settle_costs(report);
+  ASSERT_EQ(report.counts.size(), 1u);
+  EXPECT_EQ(report.counts[0].name, "mine");
+  ASSERT_EQ(report.phases.size(), 1u);
+  EXPECT_EQ(report.phases[0].name, "solve");
+  ASSERT_EQ(report.notes.size(), 4u);
+  for (const std::string& note : report.notes) EXPECT_THAT(note, HasSubstr("is measured by"));
+}
+
 }  // namespace
 }  // namespace loopbench::command_test
