@@ -158,7 +158,7 @@ std::string why_no_common_time(const FileClock& one, const FileClock& other) {
   const bool by_rows = one.clock == Clock::rows || other.clock == Clock::rows;
   if (!by_rows || one.rows == other.rows) return "";
   return fmt::format(
-      "{} has {} rows and {} has {}, both without stamps, so that rows of one time are not known: "
+      "{} has {} rows and {} has {}; neither has stamps, so corresponding rows are unknown: "
       "expected times, one for each row (traj convert FILE --times TIMES -o NEW)",
       one.name,
       one.rows,

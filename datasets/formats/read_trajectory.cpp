@@ -163,7 +163,9 @@ std::string to_text(const RowChange& change) {
     case RowChange::Kind::dropped_rows:
       return fmt::format("invalid rows dropped: {:.0f}", change.value);
     case RowChange::Kind::sorted_rows:
-      return fmt::format("rows sorted, places out of order: {:.0f}", change.value);
+      return fmt::format("sorted {:.0f} {} out of order",
+                         change.value,
+                         change.value == 1.0 ? "row that was" : "rows that were");
     case RowChange::Kind::repeated_stamps:
       return fmt::format("{:.0f} repeated stamps with agreeing poses, of which the first is kept",
                          change.value);

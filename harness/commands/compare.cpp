@@ -27,14 +27,14 @@ namespace {
 const char* const kAssertions =
     "--assert takes one of these sentences about the values of one score of methods A and B:\n"
     "  A is below B                     significantly lower: p is at most alpha\n"
-    "  A is at least X % below B        the same, and the interval of A / B ends at 1 - X % or "
-    "below\n"
+    "  A is at least X % below B        the same, and the upper end of the interval of the change "
+    "is at most -X %\n"
     "  A is not above B                 not significantly higher\n"
-    "  A is at most X % above B         the interval of A / B ends at 1 + X % or below\n"
+    "  A is at most X % above B         the upper end of the interval of the change is at most X "
+    "%\n"
     "  A is not shown to differ from B  neither significantly lower nor higher\n"
-    "p and the interval are those that `--baseline B` prints. With too few groups to show "
-    "anything, "
-    "`not above` and `not shown to differ` also hold.";
+    "p, the change from B to A and its interval are those that `--baseline B` prints. With too few "
+    "groups to show anything, `not above` and `not shown to differ` also hold.";
 
 struct CompareArguments {
   std::vector<std::filesystem::path> stores;

@@ -103,10 +103,10 @@ Diagnosed of_pair(const NamedTrajectory& reference,
   for (const NamedTrajectory* file : {&reference, &estimate}) {
     const std::size_t count = file->findings.repeated;
     if (count == 0 || is_repeat_handled) continue;
-    out.result.unchecked.push_back(
-        fmt::format("{}: {} with the stamp of the pose before (--repeats keep_first or keep_last)",
-                    file->name,
-                    count));
+    out.result.unchecked.push_back(fmt::format(
+        "{}: {} with the same stamp as the pose before (--repeats keep_first or keep_last)",
+        file->name,
+        counted(count, "pose")));
   }
   return out;
 }
@@ -186,8 +186,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<DoctorArguments>();
   CLI::App* command = app.add_subcommand(
       "doctor",
-      "Search trajectories or a pose graph for mistakes: clocks, units, axes, quaternion order, "
-      "another body, exchanged or wrong files, jumps, closures, information");
+      "Find mistakes in trajectory files or a pose graph: time offset, units, axes, quaternion "
+      "order, another body, exchanged or wrong files, jumps, false closures, information matrices");
   add(*command, "reference REF", a->reference, "Reference trajectory, or a pose graph")->required();
   add(*command, "estimates EST", a->estimates, "Estimated trajectories");
   add(*command,

@@ -121,7 +121,7 @@ std::optional<InputFinding> JudgedProblem::information() const {
   const double found = is_usual(odometry) ? of.closures : odometry;
   return InputFinding{
       Fault::information,
-      fmt::format("the gaps of {} loops need deviations that are not those stated (odometry: {}; "
+      fmt::format("the gaps of {} loops do not fit the stated standard deviations (odometry: {}; "
                   "closures: {})",
                   judgement_->agreeing,
                   methods::deviations_text(of),

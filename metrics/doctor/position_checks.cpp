@@ -106,7 +106,7 @@ std::optional<InputFinding> remove_jumps(Paired& pairs, bool of_reference) {
                   all,
                   was,
                   is),
-      "evaluate the parts on their own (traj crop), or repair the source",
+      "evaluate each part separately (traj crop), or repair the source",
       1.0,
       static_cast<double>(count)};
 }

@@ -254,7 +254,7 @@ std::optional<InputFinding> check_rate(const Trajectory& reference, const Trajec
   const bool has_indices = has_frame_indices(estimate) && !has_frame_indices(reference);
   return InputFinding{
       has_indices ? Fault::no_overlap : Fault::missing_poses,
-      fmt::format("the estimate's stamps {}: times {:.3g}, correlation of "
+      fmt::format("the estimate's stamps {}: multiplied by {:.3g}, correlation of "
                   "speeds {:.2f}",
                   has_indices ? "are frame numbers" : "have another rate, or it lacks poses",
                   factor,

@@ -81,7 +81,7 @@ TEST(Failures, OfRunsThatAnotherSolvesLeaveNoMethodFirstAlone) {
   EXPECT_TRUE(sentence(c).starts_with("no method is best: good is 5")) << sentence(c);
   EXPECT_TRUE(sentence(c).ends_with(" on 19 of 20 runs; good fails on 1")) << sentence(c);
   EXPECT_TRUE(
-      has_note(c, "no value on 1 of 20 runs (failed 1); ratios are over the runs that both"));
+      has_note(c, "no value on 1 of 20 runs (failed 1); changes are over the runs that both"));
 }
 
 TEST(Failures, AreNotRunsThatWereNeverMade) {

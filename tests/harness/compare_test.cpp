@@ -102,7 +102,7 @@ TEST(Verdict, IsAboutTheFailuresOfABaselineThatRanksBehindAWorseMethod) {
             "methods: 6 "
             "would; dual is 25 % above raw on 2 of 8 runs; raw fails on 6");
   EXPECT_TRUE(
-      has(limitations(c)[0], "no value on 6 of 8 runs (failed 6); ratios are over the runs"));
+      has(limitations(c)[0], "no value on 6 of 8 runs (failed 6); changes are over the runs"));
 }
 
 TEST(Relevance, MakesSmallDifferencesTies) {
@@ -226,7 +226,7 @@ TEST(Compare, TakesDifferencesWhereValuesAreNegative) {
   EXPECT_EQ(c.methods[0].wins, 8u);
   EXPECT_FALSE(c.methods[0].ratio);
   EXPECT_EQ(sentence(c), "dual is best, better than uniform on 8 of 8 runs");
-  EXPECT_TRUE(has_note(c, "no ratio is given for methods with negative values"));
+  EXPECT_TRUE(has_note(c, "no change is given for methods with negative values"));
   EXPECT_TRUE(has(remarks(c)[1], "p: randomization test of differences against uniform"));
 }
 

@@ -110,10 +110,11 @@ TEST(EvalNotes, StateHowPlanesAreAligned) {
   };
   const std::string moved = "planar, as set: both trajectories were moved to their planes";
   EXPECT_EQ(note(up), moved + " and aligned there");
-  EXPECT_EQ(note(down),
-            moved +
-                ", but all six degrees of freedom are aligned, because their bodies (of "
-                "positions: their worlds) have different axes");
+  EXPECT_EQ(
+      note(down),
+      moved +
+          ", but all six degrees of freedom are aligned, because the axes of their bodies (for "
+          "positions, of their world frames) differ");
 }
 
 // Several files are evaluated in parallel.

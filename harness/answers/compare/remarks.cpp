@@ -23,7 +23,7 @@ void add_gaps(const Comparison& c, Lines& out) {
             ? fmt::format("no value on {} of {} runs ({})", gap.missing, c.possible, gap.why)
             : fmt::format("not ranked, no value ({})", gap.why);
     if (method != nullptr && method->fails > 0)
-      what += "; ratios are over the runs that both methods solved";
+      what += "; changes are over the runs that both methods solved";
     const auto same = std::ranges::find(gaps, what, &std::pair<std::string, Lines>::first);
     (same == gaps.end() ? gaps.emplace_back(what, Lines()) : *same).second.push_back(gap.method);
   }
@@ -76,7 +76,7 @@ Lines limitations(const Comparison& c) {
   list("closures measured in the reference, or selected by it (oracle)", c.oracle_closures);
   if (c.runs < c.possible) {
     out.push_back(
-        fmt::format("{} of {} possible runs: {}",
+        fmt::format("{} of {} possible runs are compared: those on which {}",
                     c.runs,
                     c.possible,
                     c.is_paired ? "two methods have a value or failed" : "a method has a value"));
@@ -96,8 +96,8 @@ Lines remarks(const Comparison& c) {
   Lines out = limitations(c);
   if (c.methods.empty()) return out;
   out.push_back(fmt::format(
-      "change, ratio: typical {} / {} (Hodges-Lehmann estimate; geometric mean over sequences with "
-      "several groups)",
+      "change: typical {} / {}, minus 1 (Hodges-Lehmann estimate; geometric mean over sequences "
+      "with several groups)",
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
       baseline_name(c)));
@@ -108,7 +108,7 @@ Lines remarks(const Comparison& c) {
       c.is_ratio ? "randomization test of log ratios" : "randomization test of differences",
       baseline_name(c),
       counted(c.tests, "test")));
-  if (!c.is_ratio) out.push_back("no ratio is given for methods with negative values");
+  if (!c.is_ratio) out.push_back("no change is given for methods with negative values");
   return out;
 }
 

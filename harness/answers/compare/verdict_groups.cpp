@@ -6,6 +6,7 @@
 
 #include "harness/answers/compare/stated.hpp"
 #include "harness/answers/compare/verdict.hpp"
+#include "harness/sweep/text/counted.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -261,7 +262,7 @@ void add_cautions(Verdict& verdict, const Comparison& c, const std::vector<Compa
   });
   for (const Caution& each : found) {
     if (verdict.cautions.size() == kMost) {
-      verdict.cautions.push_back(fmt::format("{} more cautions", found.size() - kMost));
+      verdict.cautions.push_back(counted(found.size() - kMost, "more caution"));
       break;
     }
     verdict.cautions.push_back(each.text);

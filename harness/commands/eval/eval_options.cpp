@@ -74,8 +74,8 @@ void declare_pairing(CLI::App& command, EvalArguments& a) {
       "--min-coverage SHARE",
       a.min_coverage,
       "Minimum share of poses and of the reference's time, below which results are incomplete "
-      "(exit 1); default: a tenth, and half of the largest coverage of the estimates; with --store "
-      "0.5")
+      "(exit 1); default: 0.1, and at least half of the largest coverage of the estimates; with "
+      "--store 0.5")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 1.0));
   add(command,
@@ -104,9 +104,9 @@ void declare_alignment(CLI::App& command, EvalArguments& a) {
         add(command,
             "--parts FILE",
             a.parts,
-            "Parts of each estimate, aligned and evaluated each: auto (new maps, jumps of the "
-            "frame, frozen poses, as doctor finds them), or a file with the first, or first and "
-            "last, stamp of each"));
+            "Align and evaluate parts of each estimate separately: auto (new maps, jumps of the "
+            "frame, frozen poses, as doctor finds them), or a file with the first, or the first "
+            "and last, stamp of each part"));
   command.add_flag("-s,--correct_scale",
                    a.correct_scale,
                    "Also align the scale; without --align only the scale");
@@ -132,10 +132,11 @@ void declare_metrics(CLI::App& command, EvalArguments& a) {
                      "Metric to evaluate instead of the default ones, see `list metrics`; options "
                      "follow a colon (rpe:delta=5,unit=m); repeat for several")
                      ->allow_extra_args(false);
-  command.add_flag("--end-error",
-                   a.end_error,
-                   "Instead, the error at the end of loops without a reference: all files should "
-                   "end where they began");
+  command.add_flag(
+      "--end-error",
+      a.end_error,
+      "Evaluate the error at the end of loops instead, without a reference: every file, "
+      "also the first, should end where it began");
   add(command, "--plugin FILE", a.plugins, "Shared object with additional metrics")
       ->allow_extra_args(false);
   command

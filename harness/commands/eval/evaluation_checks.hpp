@@ -135,9 +135,10 @@ inline std::string plane_text(const metrics::Evaluation& evaluation) {
   if (evaluation.protocol.planar == Planar::no || !is_fitted) return "";
   if (evaluation.protocol.planar == Planar::yes) {
     return std::string("planar, as set: both trajectories were moved to their planes") +
-           (evaluation.planar ? " and aligned there"
-                              : ", but all six degrees of freedom are aligned, because their "
-                                "bodies (of positions: their worlds) have different axes");
+           (evaluation.planar
+                ? " and aligned there"
+                : ", but all six degrees of freedom are aligned, because the "
+                  "axes of their bodies (for positions, of their world frames) differ");
   }
   if (evaluation.planar) {
     return "planar: both trajectories are in one plane, so they are aligned in x, y and yaw "
@@ -149,7 +150,7 @@ inline std::string plane_text(const metrics::Evaluation& evaluation) {
   const char* which = "the estimate is in one plane, but the reference is not";
   if (is_reference) which = "the reference is in one plane, but the estimate is not";
   if (is_reference && is_estimate) {
-    which = "both trajectories are in one plane, but their bodies have different axes";
+    which = "both trajectories are in one plane, but the axes of their bodies differ";
   }
   return std::string("spatial: ") + which + ", so all six degrees of freedom are aligned";
 }

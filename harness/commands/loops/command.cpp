@@ -59,7 +59,8 @@ int run_loops(const LoopsCommand& a) {
 void add_loops(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<LoopsCommand>();
   CLI::App* command = app.add_subcommand(
-      "loops", "Check each loop closure by the closures of other places, without a reference");
+      "loops",
+      "Check whether loop closures agree with each other and the odometry, without a reference");
   declare_problem(*command, a->input);
   reads(*command,
         add(*command,
@@ -72,10 +73,12 @@ void add_loops(CLI::App& app, int& exit_code) {
              "-o,--out FILE",
              a->repaired,
              "Write a g2o graph with the closures that agree; steps of the odometry that are wrong "
-             "have a lower information"),
+             "get a lower information"),
          FileKind::trajectory);
   command->add_flag(
-      "--next", a->next, "Print where one more closure would determine the positions best");
+      "--next",
+      a->next,
+      "Print where one more closure would reduce the deviation of the positions most");
   writes(*command,
          add(*command, "--csv FILE", a->csv, "Write one row per closure; - is standard output"),
          FileKind::printed);

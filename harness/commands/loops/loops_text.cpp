@@ -143,14 +143,14 @@ std::string text(const LoopsResult& result,
   if (next) out += next_text(result, *next);
   out +=
       "odometry: distance and angle between the closure and the odometry between its keyframes\n"
-      "other places: the same to the solution with all that agree, but no closure within 20 "
-      "keyframes of both ends; [sd]: in stated standard deviations\n"
-      "without it: change of the positions [m] (rms), and decrease of chi2, if all closures but "
-      "this one are used\n"
-      "~: to first order at the solution with it; -: not determined, or not computed; other "
-      "numbers "
-      "are of solutions\n"
-      "Errors that all closures share (lever arm, bias) are not visible here.\n";
+      "other places: distance and angle between the closure and the solution with all closures "
+      "that agree, except those of its own place (both ends within 20 keyframes); [sd]: the same "
+      "in stated standard deviations\n"
+      "without it: change of the positions [m] (rms) and decrease of chi2 if this closure is left "
+      "out of the solution with all closures\n"
+      "~: computed to first order from the solution with the closure; other numbers are of a new "
+      "solution; -: not determined, or not computed\n"
+      "Errors that all closures share (lever arm, bias) do not appear here.\n";
   return out;
 }
 

@@ -133,7 +133,7 @@ def correct(
 
 
 def loops(problem: Problem) -> dict[str, Any]:
-    """Checks each loop closure by the closures of other places, without a reference.
+    """Checks whether loop closures agree with each other and the odometry, without a reference.
 
     Returns what `loopbench loops --json` prints: the verdict with a sentence, and one dictionary per
     closure, the most suspicious first; `from`, `to` and `moves_max_at` are indices of keyframes.

@@ -66,21 +66,23 @@ std::string suspects_text(const LoopsResult& result, std::size_t count) {
 
 std::string places_text(const ClosureLedger& ledger) {
   if (ledger.places < 2) {
-    return "All are at one place, so that no other place predicts them: whether the correction "
-           "helps cannot be shown.";
+    return "All closures are at one place, so no other place predicts them, and it cannot be shown "
+           "whether the correction helps.";
   }
   const std::string out = fmt::format(
-      "{} places, each predicted from the others: typically {} of the odometry's error "
-      "({} of {} better); {:.0f} % of the path lies in loops of two places. ",
+      "Each of the {} places is predicted from the others, typically with {} of the odometry's "
+      "error (less at {} of {} places); {:.0f} % of the path lies in loops of at least two "
+      "places. ",
       ledger.places,
       plain_number(ledger.ratio),
       ledger.better_places,
       ledger.places,
       100.0 * ledger.covered);
-  return out + (ledger.helps
-                    ? "The correction probably helps; by how much is not known."
-                    : "Whether the correction helps cannot be shown: closures at more places, on "
-                      "more of the path, would show it.");
+  return out +
+         (ledger.helps
+              ? "The correction probably helps; by how much is not known."
+              : "This does not show whether the correction helps: closures at more places, on "
+                "more of the path, would.");
 }
 
 std::string steps_text(const LoopsResult& result) {
@@ -122,13 +124,13 @@ std::string unchecked_text(const LoopsResult& result) {
   }
   const std::size_t more = ledger.judgement->more_needed;
   const std::string remedy =
-      more > 0 ? fmt::format(" About {} that agree, at other places, would decide.",
+      more > 0 ? fmt::format(" About {} at other places would decide, if they agree.",
                              counted(more, "further closure"))
                : " Closures at other places would decide.";
   if (ledger.verdict == LedgerVerdict::few) {
     return fmt::format(
         "{} cannot be checked: too few to confirm each other.{} `correct` moves "
-        "nothing, unless they are trusted.",
+        "nothing without --trust-loops.",
         count,
         remedy);
   }
@@ -142,8 +144,8 @@ std::string unchecked_text(const LoopsResult& result) {
   }
   return fmt::format(
       "Odometry and closures contradict each other, most at {}. No closure confirms "
-      "another: whether they, the odometry (its scale) or the stated covariances are "
-      "wrong cannot be known (see loopbench doctor).{} `correct` moves nothing.",
+      "another, so the cause can be the closures, the odometry (its scale) or the stated "
+      "covariances (see loopbench doctor).{} `correct` moves nothing.",
       suspects,
       remedy);
 }
@@ -160,8 +162,8 @@ std::string unpredicted_text(const LoopsResult& result) {
   }
   if (count == 0) return "";
   return fmt::format(
-      " {} cannot be checked by other places (first {}): without its place the "
-      "keyframes are not connected; a closure between them elsewhere would do.",
+      " {} cannot be checked by other places (the first is {}): only its place connects these "
+      "keyframes; another closure between them, at another place, would allow the check.",
       counted(count, "closure"),
       first);
 }
