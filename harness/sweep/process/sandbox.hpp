@@ -44,7 +44,7 @@ std::string missing_protection(const SandboxOptions& options);
 std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
                                              const SandboxedProgram& program);
 
-/// The restrictions of programs of configs that this process and processes forked from it start.
+/// Restrictions on the programs of configs that this process and its forked children start.
 SandboxOptions& program_sandbox();
 
 /// Whether programs are restricted here; results of unrestricted ones are kept under other keys.

@@ -29,9 +29,9 @@ std::string hash_of_poses(const Trajectory& poses);
 ///
 /// `noise:HASH`: simulated data, by stream and seed. Another seed draws all noise anew and is
 /// another source although the path is the same: paths are closed formulas selected by the config,
-/// not a sample of a population of paths. A p value over seeds therefore generalises to other noise
-/// on these paths, and a p value over recordings to other recordings. For a statement about paths,
-/// set `group` in the dataset's entry.
+/// not a sample of a population of paths. A test over seeds therefore supports claims about
+/// other noise on these paths, and a test over recordings claims about other recordings. For a
+/// statement about paths, set `group` in the dataset's entry.
 ///
 /// `estimate:HASH`: no reference; by the poses of the keyframes. O(poses).
 std::string source_of(const Sequence& sequence);
