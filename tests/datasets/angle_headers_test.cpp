@@ -83,5 +83,83 @@ TEST(Nmea, AWrongChecksumIsAnInvalidRow) {
   EXPECT_THAT(refusal([&] { read_text(wrong, true); }), HasSubstr("has checksum 7C"));
 }
 
+std::string gga(const std::string& time, const std::string& latitude = "4806.000") {
+  return "$GPGGA," + time + "," + latitude + ",N,01130.000,E,1,08,1.0,500.0,M,46.0,M,,\n";
+}
+
+std::string rmc(const std::string& time, const std::string& date, const char* status = "A") {
+  return "$GPRMC," + time + "," + status + ",4806.000,N,01130.000,E,0.0,0.0," + date + ",,\n";
+}
+
+std::vector<double> stamps_of(const std::string& text) {
+  std::vector<double> out;
+  for (const StampedPose& pose : read_text(text, true)) out.push_back(pose.stamp);
+  return out;
+}
+
+constexpr double kDay = 86'400.0, kJanuary = 1'704'067'200.0;  // 2024-01-01
+
+TEST(Nmea, PositionsBeforeTheFirstDateAreOfTheDayBefore) {
+  EXPECT_THAT(
+      stamps_of(gga("235950") + gga("000010") + rmc("000010", "020124") + gga("000011")),
+      testing::ElementsAre(kJanuary + 86'390.0, kJanuary + kDay + 10.0, kJanuary + kDay + 11.0));
+  EXPECT_THAT(stamps_of(gga("235950") + rmc("000000", "020124")),
+              testing::ElementsAre(kJanuary + 86'390.0));
+}
+
+TEST(Nmea, EachDateCounts) {
+  const auto first = rmc("100000", "010124"), later = rmc("110000", "020124"),
+             earlier = rmc("090000", "020124");
+  const double at = kJanuary + 36'000.0;
+  EXPECT_THAT(stamps_of(first + later), testing::ElementsAre(at, at + kDay + 3600.0));
+  EXPECT_THAT(stamps_of(first + earlier), testing::ElementsAre(at, at + kDay - 3600.0));
+  EXPECT_THAT(stamps_of(first + gga("100000") + later + gga("110001")),
+              testing::ElementsAre(at, at + kDay + 3601.0));
+  // That of a receiver without a fix counts only if there is no other.
+  EXPECT_THAT(stamps_of(rmc("095900", "010124", "V") + gga("100000") + rmc("1", "060180", "V") +
+                        gga("100001")),
+              testing::ElementsAre(at, at + 1.0));
+}
+
+TEST(Nmea, DatesOfOtherCharactersAreNone) {
+  for (const char* const date : {"1e+300", "-12345", "311322"}) {
+    EXPECT_THAT(stamps_of(rmc("000001", date)), testing::ElementsAre(1.0)) << date;
+  }
+}
+
+TEST(Nmea, NumbersOutOfRangeAreRefused) {
+  for (const char* const latitude : {"9930.0", "nan", "1e300"}) {
+    EXPECT_THAT(refusal([&] { read_text(gga("000001", latitude), true); }),
+                HasSubstr("expected -90 to 90 degrees"));
+  }
+  std::string high = gga("000001");
+  high.replace(high.find("500.0"), 5, "nan");
+  EXPECT_THAT(refusal([&] { read_text(high, true); }), HasSubstr("height is nan"));
+  for (const char* const time : {"1e300", "240000", "-1", "nan"}) {
+    EXPECT_THAT(stamps_of(gga("000001") + gga(time)), testing::ElementsAre(1.0)) << time;
+  }
+}
+
+TEST(Nmea, SentencesWithoutAPositionAreCounted) {
+  const TemporaryFolder scratch;
+  ReadOptions options;
+  options.positions = true;
+  const auto without_fix = [&](const std::string& text) {
+    ReadFindings findings;
+    options.findings = &findings;
+    read_trajectory(scratch.file("a.csv", text), options);
+    return findings.without_fix;
+  };
+  const std::string lost = "$GPGGA,000002,,,,,0,00,,,M,,M,,\n$GPRMC,000002,V,,,,,,,010124,,\n";
+  EXPECT_EQ(without_fix(gga("000001") + lost), 1u);
+  EXPECT_EQ(without_fix(rmc("000001", "010124") + lost), 1u);
+}
+
+TEST(Nmea, AFileBeginsWithAReceiversOwnSentence) {
+  for (const char* const own : {"$PUBX,00,1,2,3\n", "$PMTK010,001*2E\n", "$PGRMC,A,0,0\n"}) {
+    EXPECT_THAT(stamps_of(own + gga("000001")), testing::ElementsAre(1.0)) << own;
+  }
+}
+
 }  // namespace
 }  // namespace loopbench::angle_headers_test
