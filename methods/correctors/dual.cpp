@@ -11,7 +11,6 @@
 
 #include "methods/correctors/anchors.hpp"
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/consensus/calibrated.hpp"
 #include "methods/correctors/looped_chain.hpp"
 #include "methods/correctors/plausibility.hpp"
 
@@ -89,9 +88,7 @@ std::optional<Problem> used_part(const Problem& problem, Dual::Use use) {
 }
 
 Trajectory correct_rigid(const Dual::Options& options, const Problem& stated, Report& report) {
-  std::optional<Problem> scaled;
-  note_old_name(options.rescale, report);
-  if (options.calibrate || options.rescale) scaled = calibrated(stated, report);
+  const std::optional<Problem> scaled = calibrated_if_asked(options, stated, report);
   const Problem& problem = scaled ? *scaled : stated;
   const NoiseModel noise_model = stated_noise_model(problem);
   const LoopedChain solved = lowest_minimum(
@@ -154,7 +151,7 @@ std::string Dual::why_declined(const Problem& stated) const {
   if (has_scale_drift(problem)) {
     return "edges change the scale, which this method does not estimate: use pose_graph";
   }
-  if (is_calibrated()) {
+  if (is_calibrated(options_)) {
     if (std::string why = why_not_calibrated(problem); !why.empty()) return why;
   }
   return loops_fault(problem, options_.max_closures);

@@ -1,6 +1,7 @@
 /// Maximum likelihood on a chain with few loops, solved in closed form for the loop multipliers.
 #pragma once
 
+#include "methods/correctors/consensus/calibrated.hpp"
 #include "methods/method.hpp"
 
 namespace loopbench::methods {
@@ -52,7 +53,7 @@ class Dual final : public Corrector {
 
   /// `calibrate` knows no anchors.
   bool accepts_anchors() const override {
-    return !is_calibrated() || options_.use == Use::closures;
+    return !is_calibrated(options_) || options_.use == Use::closures;
   }
 
   /// Counts: `iterations`, `chi2_before`, `chi2` (the sum above), `chi2_per_dof`,
@@ -61,8 +62,6 @@ class Dual final : public Corrector {
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
-  bool is_calibrated() const { return options_.calibrate || options_.rescale; }
-
   Options options_;
 };
 
@@ -91,12 +90,7 @@ void fields(Dual::Options& o, Visit visit) {
   visit("start",
         o.start,
         "initial values; auto: keyframes, then chordal relaxation if chi2 is implausibly large");
-  visit(
-      "calibrate",
-      o.calibrate,
-      "replace the stated deviations by those that the closures show, as consensus estimates them; "
-      "all closures are used");
-  visit("rescale", o.rescale, "old name of calibrate");
+  calibration_fields(o, visit);
   visit("use", o.use, "measurements that are used, to compare what closures and anchors add");
   visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
 }

@@ -8,7 +8,6 @@
 
 #include "methods/correctors/anchors.hpp"
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/consensus/calibrated.hpp"
 #include "methods/correctors/gnc.hpp"
 #include "methods/correctors/looped_chain.hpp"
 #include "methods/correctors/plausibility.hpp"
@@ -227,11 +226,10 @@ Trajectory optimised(const Problem& problem,
   const bool has_dcs_weights = is_dcs && !is_gnc && !problem.closures.empty();
   if (!is_gnc) run.set_initial_poses(used, report);
   used.report_held_pose(report);
-  const auto solve = [&] {
+  const PoseGraphSummary summary = [&] {
     if (is_gnc) return solve_graduated(run, report);
     return has_dcs_weights ? solve_dcs(run, report) : solve_once(run, report);
-  };
-  const PoseGraphSummary summary = solve();
+  }();
   report.count("iterations", run.iterations);
   const bool is_robust = options.loss != RobustLoss::none;
   report.count(is_robust ? "robust_chi2_before" : "chi2_before", 2.0 * summary.cost_before);
@@ -270,7 +268,7 @@ std::string PoseGraphOptimizer::why_declined(const Problem& problem) const {
     return "group is sim3, which has no anchors";
   if (options_.group == Poses::se2 && !problem.planar)
     return "group is se2, but the problem is not planar";
-  if (is_calibrated()) {
+  if (is_calibrated(options_)) {
     if (std::string why = why_not_calibrated(problem); !why.empty()) return why;
   }
   if (const auto unreached = first_unconnected(problem)) {
@@ -291,9 +289,8 @@ Trajectory PoseGraphOptimizer::correct(const Problem& stated, Report& report) co
     changed = with_bounded_stiffness(problem());
   };
   bound_stiffness();
-  note_old_name(options_.rescale, report);
-  if (is_calibrated()) {
-    changed = calibrated(problem(), report);
+  if (std::optional<Problem> scaled = calibrated_if_asked(options_, problem(), report)) {
+    changed = std::move(scaled);
     bound_stiffness();
   }
   return optimised(problem(), options_, report);

@@ -1,6 +1,7 @@
 /// Pose-graph optimisation, standard and robust.
 #pragma once
 
+#include "methods/correctors/consensus/calibrated.hpp"
 #include "methods/correctors/gnc.hpp"
 #include "methods/method.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
@@ -56,7 +57,9 @@ class PoseGraphOptimizer final : public Corrector {
   std::string why_declined(const Problem& problem) const override;
 
   /// `gnc` and `calibrate` know no anchors.
-  bool accepts_anchors() const override { return options_.gnc == Gnc::off && !is_calibrated(); }
+  bool accepts_anchors() const override {
+    return options_.gnc == Gnc::off && !is_calibrated(options_);
+  }
 
   /// Counts: `iterations` (linear solves), `chi2_before`, `chi2` (sum of squared Mahalanobis
   /// errors; with a loss `robust_chi2`, sum of losses), without a loss `chi2_per_dof`, with
@@ -66,8 +69,6 @@ class PoseGraphOptimizer final : public Corrector {
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
-  bool is_calibrated() const { return options_.calibrate || options_.rescale; }
-
   Options options_;
 };
 
@@ -111,12 +112,7 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         o.tolerance,
         "convergence threshold: relative change of the cost [-]",
         GreaterThan{0.0});
-  visit(
-      "calibrate",
-      o.calibrate,
-      "replace the stated deviations by those that the closures show, as consensus estimates them; "
-      "all closures are used");
-  visit("rescale", o.rescale, "old name of calibrate");
+  calibration_fields(o, visit);
   visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
 }
 

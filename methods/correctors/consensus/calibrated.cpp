@@ -31,8 +31,4 @@ Problem calibrated(const Problem& problem, Report& report) {
   return out;
 }
 
-void note_old_name(bool is_rescale, Report& report) {
-  if (is_rescale) report.notes.emplace_back("rescale is the old name of calibrate");
-}
-
 }  // namespace loopbench::methods
