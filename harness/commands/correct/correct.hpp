@@ -47,9 +47,11 @@ struct Correction {
   Trajectory keyframes;  ///< corrected, stamps and order of `problem.keyframes`
   Trajectory output;     ///< at the requested stamps, ascending; the corrected keyframes by default
   std::size_t outside = 0;  ///< requested stamps outside the keyframes' time span, not in `output`
-  /// Of all edges but rejected closures; unset if an edge changes the scale.
+  /// Of all edges but rejected closures; unset if an edge changes the scale or measures so much
+  /// that its squared error is not finite.
   std::optional<std::vector<Residual>> before;
   std::optional<std::vector<Residual>> after;
+  std::string why_no_residuals;         ///< empty: there are residuals
   std::optional<std::size_t> rejected;  ///< closures; unset: the method rejects none
   Provenance provenance = {};           ///< of the file
   double seconds = 0.0;                 ///< wall time of the method

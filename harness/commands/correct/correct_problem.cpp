@@ -14,8 +14,10 @@
 namespace loopbench::harness {
 namespace {
 
+/// Writes to `why` the reason if there are none.
 std::optional<std::vector<Residual>> residuals(const Problem& problem,
-                                               const Trajectory& keyframes) {
+                                               const Trajectory& keyframes,
+                                               std::string& why) {
   metrics::Evaluation evaluation;
   evaluation.context.problem = &problem;
   evaluation.context.estimate = &keyframes;
@@ -44,9 +46,12 @@ std::optional<std::vector<Residual>> residuals(const Problem& problem,
     out.push_back({"anchor_rms", "anchor error, rms [m]", rms});
     out.push_back({"anchor_max", "anchor error, max [m]", max});
     return out;
-  } catch (const std::runtime_error&) {  // an edge changes the scale
-    return std::nullopt;
+  } catch (const metrics::Undefined&) {
+    why = "an edge changes the scale";
+  } catch (const std::runtime_error& error) {
+    why = error.what();
   }
+  return std::nullopt;
 }
 
 std::optional<std::size_t> rejected_closures(const Correction& done) {
@@ -113,8 +118,8 @@ Correction correct(Problem problem,
   // Of a method that rejects all, the residuals of all show what is left.
   const bool keeps_some = rejected.size() < out.problem.closures.size();
   const Problem kept = keeps_some ? without_closures(out.problem, rejected) : out.problem;
-  out.before = residuals(kept, out.problem.keyframes);
-  out.after = residuals(kept, out.keyframes);
+  out.before = residuals(kept, out.problem.keyframes, out.why_no_residuals);
+  out.after = residuals(kept, out.keyframes, out.why_no_residuals);
   out.rejected = rejected_closures(out);
   // Of the solver's start, not of the input.
   std::erase_if(out.report.counts, [](const auto& c) { return c.name.ends_with("chi2_before"); });

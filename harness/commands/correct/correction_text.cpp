@@ -90,7 +90,7 @@ std::string text(const Correction& c) {
           "{:<28}{}{}\n", title, residual_text(before), residual_text((*c.after)[i].value));
     }
   } else {
-    out += "no residuals: an edge changes the scale\n";
+    out += "no residuals: " + c.why_no_residuals + "\n";
   }
   std::string counts;
   for (const methods::Count& count : c.report.counts) {
