@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "datasets/core/disabled_options.hpp"
 #include "datasets/derive/closures.hpp"
@@ -99,8 +100,11 @@ std::string closure_provenance(const PoseGraphOptions& o,
 }
 
 /// Adds closures with the poses of fixed vertices relative to the first of them and much more
-/// information than the odometry has, so that every method that uses closures holds them.
-void hold_fixed(const PoseGraph& graph, Sequence& sequence) {
+/// information than the odometry has, so that every method that uses closures holds them. Indices
+/// of false closures follow them.
+void hold_fixed(const PoseGraph& graph,
+                Sequence& sequence,
+                std::vector<std::size_t>& false_closures) {
   if (graph.fixed.empty() || graph.vertices.empty()) return;
   Problem& problem = sequence.problem;
   Provenance& provenance = sequence.provenance;
@@ -124,7 +128,7 @@ void hold_fixed(const PoseGraph& graph, Sequence& sequence) {
     provenance.held.push_back({first, k, normalized(step), information});
   }
   problem.closures.insert(problem.closures.end(), provenance.held.begin(), provenance.held.end());
-  sort_closures(problem.closures);
+  sort_closures(problem.closures, &false_closures);
   if (provenance.held.empty()) return;
   provenance.notes.push_back(fmt::format(
       "FIX: {} vertices are held by closures with 1e5 times the information of the odometry",
@@ -171,7 +175,7 @@ Problem derive_problem(const PoseGraph& graph,
                        const PoseGraphOptions& o,
                        const std::filesystem::path& file,
                        const std::filesystem::path& true_list,
-                       std::size_t* false_closures) {
+                       std::vector<std::size_t>* false_closures) {
   GraphParts parts = split_graph(graph, file);
   const Trajectory poses = initial_poses(graph, o.period);
   std::vector<Edge>& closures = parts.closures;
@@ -204,9 +208,9 @@ Problem derive_problem(const PoseGraph& graph,
   for (Anchor& anchor : problem.anchors) anchor.keyframe = keyframe_of[anchor.keyframe];
   std::ranges::stable_sort(problem.anchors, {}, &Anchor::keyframe);
   problem.planar = graph.planar && o.planar != Planar::no;
-  const std::size_t added =
+  std::vector<std::size_t> added =
       add_false_closures(problem, o.false_closures, identity(o, problem.keyframes));
-  if (false_closures != nullptr) *false_closures = added;
+  if (false_closures != nullptr) *false_closures = std::move(added);
   return problem;
 }
 
@@ -221,7 +225,7 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
   };
   const std::filesystem::path file = open(o.path, "path");
   const PoseGraph graph = read_g2o(file, o.rules);
-  std::size_t false_closures = 0;
+  std::vector<std::size_t> false_closures;
   sequence.problem = derive_problem(
       graph, o, file, open(lists ? o.true_list : "", "closures.true_list"), &false_closures);
   if (!o.truth.empty()) {
@@ -234,7 +238,7 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
                  "planar",
                  "yes has no effect on edges that change the scale, expected auto or no");
   if (!graph.planar && !graph.similarity) make_planar(o.planar, sequence);
-  hold_fixed(graph, sequence);
+  hold_fixed(graph, sequence, false_closures);
   if (!graph.priors.empty()) {
     sequence.provenance.notes.push_back(
         fmt::format("priors are anchors ({}): their positions are used, their rotations are not",
@@ -250,7 +254,10 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
   sequence.provenance.licence = o.licence;
   sequence.provenance.body_from_reference = pose_of(o.reference_body);
   sequence.provenance.closures =
-      closure_provenance(o, graph, sequence.problem.closures.size(), false_closures);
+      closure_provenance(o, graph, sequence.problem.closures.size(), false_closures.size());
+  if (lists || o.false_closures.share > 0.0) {
+    sequence.false_closures = std::move(false_closures);
+  }
   sequence.provenance.oracle_closures = lists;
   check(sequence.problem, sequence.name);
   check(sequence.reference, sequence.name + ": reference");

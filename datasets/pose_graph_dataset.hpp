@@ -113,13 +113,13 @@ void check_combination(const PoseGraphOptions& options, const Params& given);
 /// of every closure kept; odometry between them is composed from the edges of the file. Other poses
 /// become frames. If poses are omitted between keyframes or the file has no vertices, every pair of
 /// consecutive poses needs an edge; otherwise the odometry may have gaps. `true_list` is the
-/// resolved path of the list, or empty. The number of added false closures is written to
+/// resolved path of the list, or empty. The indices of added false closures are written to
 /// `false_closures` unless it is null. Throws InputError. O(poses + edges).
 Problem derive_problem(const PoseGraph& graph,
                        const PoseGraphOptions& options,
                        const std::filesystem::path& file,
                        const std::filesystem::path& true_list = {},
-                       std::size_t* false_closures = nullptr);
+                       std::vector<std::size_t>* false_closures = nullptr);
 
 /// Throws OptionError, InputError.
 Sequence load_pose_graph(const PoseGraphOptions& options, const DataRoot& root);

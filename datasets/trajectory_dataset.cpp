@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/trajectory_inputs.hpp"
@@ -109,7 +110,7 @@ PlanarParts parts_of(TrajectoryInputs& in) {
 
 Problem derive_problem(const TrajectoryInputs& in,
                        const TrajectoryOptions& o,
-                       std::size_t* false_closures) {
+                       std::vector<std::size_t>* false_closures) {
   std::vector<std::size_t> kept = choose_keyframes(in.estimate, o.keyframes);
   std::vector<Edge> closures;
   if (o.closures == ClosureSource::file) {
@@ -146,8 +147,8 @@ Problem derive_problem(const TrajectoryInputs& in,
   }
   problem.closures = std::move(closures);
   problem.planar = in.normal.has_value();
-  const std::size_t added = add_false_closures(problem, o.false_closures, noise);
-  if (false_closures != nullptr) *false_closures = added;
+  std::vector<std::size_t> added = add_false_closures(problem, o.false_closures, noise);
+  if (false_closures != nullptr) *false_closures = std::move(added);
   return problem;
 }
 
@@ -158,13 +159,16 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   const PlanarChoice plane = choose_planar(o.planar, parts_of(in));
   if (plane.planar) in.normal = plane.normal;
   if (!plane.note.empty()) sequence.provenance.notes.push_back(plane.note);
-  std::size_t false_closures = 0;
+  std::vector<std::size_t> false_closures;
   sequence.problem = derive_problem(in, o, &false_closures);
   if (in.anchors) {
     const Trajectory& run = in.frames.empty() ? in.estimate : in.frames;
     add_anchors(*in.anchors, o.anchors_file, run, o.anchors_max_gap, sequence);
   }
-  describe(in, o, false_closures, sequence);
+  describe(in, o, false_closures.size(), sequence);
+  if (o.closures == ClosureSource::reference || o.false_closures.share > 0.0) {
+    sequence.false_closures = std::move(false_closures);
+  }
   sequence.reference = std::move(in.reference);
   if (plane.planar) set_body(sequence, plane.body_from_plane());
   check(sequence.problem, sequence.name);

@@ -37,7 +37,8 @@ struct Report {
   std::vector<Section> sections;   ///< sorted by kind, then by time
   /// Covariance of each keyframe in fixed axes (datasets/core/covariance.hpp); empty: none stated.
   std::vector<Matrix6> covariances;
-  /// Indices in Problem::closures, ascending; unset: the method rejects none. Not kept by sweeps.
+  /// Indices in Problem::closures, ascending; unset: the method does not choose among them. Read by
+  /// metrics, not kept by sweeps.
   std::optional<std::vector<std::size_t>> rejected;
 
   void count(std::string name, double value) { counts.push_back({std::move(name), value}); }

@@ -3,6 +3,7 @@
 
 #include "metrics/checks/diagnostics.hpp"
 #include "metrics/checks/extrinsic_offset.hpp"
+#include "metrics/correction/closure_choice.hpp"
 #include "metrics/correction/closure_prediction.hpp"
 #include "metrics/correction/graph_cost.hpp"
 #include "metrics/correction/interpolation_floor.hpp"
@@ -63,6 +64,12 @@ std::vector<MetricEntry> metrics() {
           "closure_prediction",
           "error of closures predicted by those of other places, over that of the odometry",
           closure_prediction),
+      metric_without_reference<NoOptions>("closures_kept_false",
+                                          "share of the false closures that the method kept",
+                                          closures_kept_false),
+      metric_without_reference<NoOptions>("closures_dropped_true",
+                                          "share of the true closures that the method rejected",
+                                          closures_dropped_true),
       metric_without_reference<GraphCostOptions>(
           "graph_cost", "sum of squared Mahalanobis errors over all edges", graph_cost),
       metric_without_reference<NoOptions>(

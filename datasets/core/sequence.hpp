@@ -51,6 +51,9 @@ struct Sequence {
   /// Best candidate of each keyframe that has one, sorted by `to`; empty: the dataset has no loop
   /// detector. Used to evaluate the detector; methods do not receive it.
   std::vector<LoopCandidate> loop_candidates = {};
+  /// Indices in problem.closures, ascending, of those that are known to be false; all others are
+  /// true. Unset: unknown. Used to evaluate methods that reject closures; they do not receive it.
+  std::optional<std::vector<std::size_t>> false_closures = {};
 };
 
 /// Default name of the sequence of a file: its folder and its name without extension.

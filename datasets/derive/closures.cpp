@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
+#include <numeric>
 #include <utility>
 
 #include "datasets/columns/columns.hpp"
@@ -163,10 +163,22 @@ Edge start_equals_end(const Trajectory& poses, double sigma_t) {
           isotropic_information(sigma_t * sigma_t, kUnknown * kUnknown)};
 }
 
-void sort_closures(std::vector<Edge>& closures) {
-  std::stable_sort(closures.begin(), closures.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.to, a.from) < std::tie(b.to, b.from);
-  });
+void sort_closures(std::vector<Edge>& closures, std::vector<std::size_t>* marked) {
+  std::vector<std::size_t> before(closures.size());  // index of each sorted closure
+  std::iota(before.begin(), before.end(), std::size_t{0});
+  std::ranges::stable_sort(
+      before, {}, [&](std::size_t k) { return std::pair(closures[k].to, closures[k].from); });
+  std::vector<Edge> sorted;
+  std::vector<std::size_t> after(closures.size());
+  sorted.reserve(closures.size());
+  for (const std::size_t k : before) {
+    after[k] = sorted.size();
+    sorted.push_back(closures[k]);
+  }
+  closures = std::move(sorted);
+  if (marked == nullptr) return;
+  for (std::size_t& k : *marked) k = after[k];
+  std::ranges::sort(*marked);
 }
 
 std::vector<StampedClosure> read_closure_file(const std::filesystem::path& path,

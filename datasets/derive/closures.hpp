@@ -59,8 +59,9 @@ std::vector<Edge> with_local_scale(std::vector<Edge> edges,
 /// rad, so that least squares ignore it.
 Edge start_equals_end(const Trajectory& poses, double sigma_t);
 
-/// Sorts closures by (to, from), as required by Problem.
-void sort_closures(std::vector<Edge>& closures);
+/// Sorts closures by (to, from), as required by Problem; equal ones keep their order. `marked` are
+/// indices of closures, which follow them and are ascending afterwards. O(n log n).
+void sort_closures(std::vector<Edge>& closures, std::vector<std::size_t>* marked = nullptr);
 
 struct StampedClosure {
   double stamp_from = 0.0;  ///< [s]

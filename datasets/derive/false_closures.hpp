@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "datasets/core/fields.hpp"
 #include "datasets/core/problem.hpp"
@@ -34,15 +35,15 @@ void false_closure_fields(FalseClosures& o, Visit visit) {
 /// random keyframes, at least two keyframes and 1/20 of the chain apart, with the measurement and
 /// information of a random closure of the problem. The reference is not used, so a false closure
 /// may connect keyframes that are close to each other. Closures remain sorted. Draws are identical
-/// with every standard library. Returns the number of false closures, 0 for a problem without
+/// with every standard library. Returns their indices, ascending; none for a problem without
 /// closures. Throws InputError for fewer than 3 keyframes. O(closures log closures).
-inline std::size_t add_false_closures(Problem& problem,
-                                      const FalseClosures& options,
-                                      std::uint64_t noise_identity) {
+inline std::vector<std::size_t> add_false_closures(Problem& problem,
+                                                   const FalseClosures& options,
+                                                   std::uint64_t noise_identity) {
   constexpr std::size_t kMinDistance = 2;  // [keyframes]; neighbours are connected by odometry
   const std::size_t n = problem.keyframes.size();
   const std::size_t given = problem.closures.size();
-  if (given == 0 || options.share == 0.0) return 0;
+  if (given == 0 || options.share == 0.0) return {};
   if (n <= kMinDistance) {
     throw InputError(
         fmt::format("false_closures.share = {}: found {} keyframes, expected at least {}",
@@ -54,17 +55,18 @@ inline std::size_t add_false_closures(Problem& problem,
       std::llround(static_cast<double>(given) * options.share / (1.0 - options.share)));
   Random random({options.seed, noise_identity}, Purpose::false_closures);
   const std::size_t min_distance = std::max(kMinDistance, n / 20);
-  for (std::size_t added = 0; added < count;) {
+  std::vector<std::size_t> added;
+  while (added.size() < count) {
     const auto [from, to] = std::minmax({random.index(n), random.index(n)});
     Edge edge = problem.closures[random.index(given)];
     if (to - from < min_distance) continue;
     edge.from = from;
     edge.to = to;
+    added.push_back(problem.closures.size());
     problem.closures.push_back(edge);
-    ++added;
   }
-  sort_closures(problem.closures);
-  return count;
+  sort_closures(problem.closures, &added);
+  return added;
 }
 
 /// Provenance text: ", 5 of 10 false and added"; empty if options.share is 0.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "datasets/core/factorisations.hpp"
 #include "datasets/noise/random.hpp"
@@ -132,12 +133,12 @@ std::pair<std::size_t, std::size_t> unrelated_pair(const Trajectory& truth,
 
 }  // namespace
 
-std::vector<Edge> simulate_closures(const Trajectory& truth,
-                                    const RevisitRule& same,
-                                    const SimulatedOptions& options) {
+SimulatedLoops simulate_closures(const Trajectory& truth,
+                                 const RevisitRule& same,
+                                 const SimulatedOptions& options) {
   const SimulatedClosures& closures = options.closures;
   const Twist mask = options.planar ? twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}) : Twist::Ones();
-  std::vector<Edge> out;
+  std::vector<std::pair<Edge, bool>> drawn;  // and whether it is false
 
   Random noise(noise_stream(options), Purpose::closures);
   const std::vector<Revisit> pairs =
@@ -145,7 +146,7 @@ std::vector<Edge> simulate_closures(const Trajectory& truth,
   for (const auto& [from, to] : pairs) {
     const Pose exact = truth[from].world_from_body.inverse() * truth[to].world_from_body;
     const Twist error = mask.cwiseProduct(noise.normal_twist(closures.sigma_t, closures.sigma_r));
-    out.push_back({from, to, exact * exp_se3(error), information(closures)});
+    drawn.push_back({{from, to, exact * exp_se3(error), information(closures)}, false});
   }
 
   const double share = closures.false_share;
@@ -157,11 +158,16 @@ std::vector<Edge> simulate_closures(const Trajectory& truth,
     // A false measurement has the same size as the relative pose of a true revisit.
     const Twist measured =
         mask.cwiseProduct(false_noise.normal_twist(0.5 * same.radius, 0.5 * same.angle));
-    out.push_back({from, to, exp_se3(measured), information(closures)});
+    drawn.push_back({{from, to, exp_se3(measured), information(closures)}, true});
   }
-  std::sort(out.begin(), out.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.to, a.from) < std::tie(b.to, b.from);
+  std::sort(drawn.begin(), drawn.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.first.to, a.first.from) < std::tie(b.first.to, b.first.from);
   });
+  SimulatedLoops out;
+  for (const auto& [edge, is_false] : drawn) {
+    if (is_false) out.false_ones.push_back(out.closures.size());
+    out.closures.push_back(edge);
+  }
   return out;
 }
 

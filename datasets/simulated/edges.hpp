@@ -27,14 +27,19 @@ Odometry simulate_odometry(const Trajectory& truth,
                            const std::vector<std::size_t>& keyframes,
                            const SimulatedOptions& options);
 
+struct SimulatedLoops {
+  std::vector<Edge> closures;             ///< sorted by (to, from)
+  std::vector<std::size_t> false_ones{};  ///< indices of those that connect different places
+};
+
 /// Returns at most closures.max true closures, subsampled evenly from all revisits and including
 /// the last one, each measured as truth * exp(noise). Adds false closures, which connect different
-/// places, until their share is closures.false_share. Sorted by (to, from). `truth` holds the true
-/// poses of the keyframes. Throws OptionError if false closures are requested for a path that stays
-/// at one place. O(poses).
-std::vector<Edge> simulate_closures(const Trajectory& truth,
-                                    const RevisitRule& same,
-                                    const SimulatedOptions& options);
+/// places, until their share is closures.false_share. `truth` holds the true poses of the
+/// keyframes. Throws OptionError if false closures are requested for a path that stays at one
+/// place. O(poses).
+SimulatedLoops simulate_closures(const Trajectory& truth,
+                                 const RevisitRule& same,
+                                 const SimulatedOptions& options);
 
 /// Returns anchors.count measured positions of different keyframes, drawn at random, with normal
 /// errors in x, y and, unless options.planar, z. Throws OptionError for more anchors than

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "datasets/derive/keyframes.hpp"
 #include "datasets/noise/random.hpp"
@@ -150,7 +151,9 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   out.problem.keyframes = split(odometry.frames, keyframes).keyframes;
   out.problem.odometry = std::move(odometry.edges);
   const Trajectory true_keyframes = split(truth, keyframes).keyframes;
-  out.problem.closures = simulate_closures(true_keyframes, same, options);
+  SimulatedLoops loops = simulate_closures(true_keyframes, same, options);
+  out.problem.closures = std::move(loops.closures);
+  out.false_closures = std::move(loops.false_ones);
   out.problem.anchors = simulate_anchors(true_keyframes, options);
   out.problem.frames = std::move(odometry.frames);
   out.problem.planar = options.planar;

@@ -168,6 +168,14 @@ std::size_t kept_count(const std::vector<double>& weights) {
       std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
 }
 
+std::vector<std::size_t> rejected_closures(const std::vector<double>& weights) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    if (!(weights[k] > 0.5)) out.push_back(k);
+  }
+  return out;
+}
+
 GncSolution solve_gnc(const GncProblem& of, Report& report) {
   const std::size_t closures = of.problem.closures.size();
   const std::vector<std::size_t> consistent =

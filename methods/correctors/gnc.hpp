@@ -36,6 +36,7 @@ struct GncSolution {
 
 /// Number of closures with a weight above one half; the others count as rejected.
 std::size_t kept_count(const std::vector<double>& weights);
+std::vector<std::size_t> rejected_closures(const std::vector<double>& weights);  ///< ascending
 
 /// Starts from the pairwise consistent closures (consistency.hpp), with initial values computed
 /// from them alone because a relaxation with false closures is biased. Starts from all closures

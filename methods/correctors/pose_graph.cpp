@@ -203,10 +203,7 @@ PoseGraphSummary solve_graduated(Optimisation& run, Report& report) {
   run.iterations = gnc.iterations;
   report.count("gnc_rounds", gnc.rounds);
   report.count("closures_kept", static_cast<double>(kept_count(run.weights)));
-  report.rejected.emplace();
-  for (std::size_t k = 0; k < run.weights.size(); ++k) {
-    if (!(run.weights[k] > 0.5)) report.rejected->push_back(k);
-  }
+  report.rejected = rejected_closures(run.weights);
   PoseGraphSummary out = report.time("solve", [&] { return run.solve(run.settings); });
   out.cost_before = gnc.cost_before;
   return out;
@@ -240,7 +237,11 @@ Trajectory optimised(const Problem& problem,
         degrees_of_freedom(problem.keyframes.size(), edges, dimensions(run.settings.group));
     report_chi2(2.0 * summary.cost, dof + used.degrees_of_freedom(), problem, report);
   }
-  if (is_dcs) note_ignored(dcs_weights(run), report);
+  if (is_dcs) {
+    const std::vector<double> weights = dcs_weights(run);
+    note_ignored(weights, report);
+    if (has_dcs_weights) report.rejected = rejected_closures(weights);
+  }
   if (!summary.converged) {
     report.notes.push_back(
         "the last solve stopped at max_iterations before reaching the tolerance");

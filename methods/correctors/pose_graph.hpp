@@ -64,8 +64,9 @@ class PoseGraphOptimizer final : public Corrector {
   /// Counts: `iterations` (linear solves), `chi2_before`, `chi2` (sum of squared Mahalanobis
   /// errors; with a loss `robust_chi2`, sum of losses), without a loss `chi2_per_dof`, with
   /// `calibrate` the factors `factor_t`, `factor_r`, `factor_closures` on deviations, and with GNC
-  /// `gnc_rounds` and `closures_kept`. States covariances if asked (graph_covariance.hpp). Throws
-  /// std::runtime_error when the solver finds no usable solution.
+  /// `gnc_rounds` and `closures_kept`. With GNC and dcs the report states the rejected closures,
+  /// those with at most half of their weight. States covariances if asked (graph_covariance.hpp).
+  /// Throws std::runtime_error when the solver finds no usable solution.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:

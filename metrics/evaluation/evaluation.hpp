@@ -50,6 +50,10 @@ struct Context {
   const std::vector<Matrix6>* reference_covariances = nullptr;
   const std::vector<Matrix6>* estimate_covariances = nullptr;
   const SolveWithout* solve_without = nullptr;
+  /// Indices in `problem->closures`, ascending: the false ones (null: unknown), and those that the
+  /// method rejected (null: it does not choose among them).
+  const std::vector<std::size_t>* false_closures = nullptr;
+  const std::vector<std::size_t>* rejected_closures = nullptr;
 };
 
 /// Dereferences the view. Throws Undefined "METRIC: needs WHAT, which files do not have" if null.

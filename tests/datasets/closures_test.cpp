@@ -215,7 +215,7 @@ Problem chain(std::size_t keyframes, std::size_t closures) {
 TEST(FalseClosures, ShortChainsGetTheirShareToo) {
   for (const std::size_t keyframes : {3u, 4u, 10u, 39u, 40u, 200u}) {
     Problem problem = chain(keyframes, 6);
-    EXPECT_EQ(add_false_closures(problem, {0.5, 1}, 0), 6u) << keyframes;
+    EXPECT_EQ(add_false_closures(problem, {0.5, 1}, 0).size(), 6u) << keyframes;
     EXPECT_EQ(problem.closures.size(), 12u);
     for (const Edge& closure : problem.closures) {
       EXPECT_GE(closure.to - closure.from, std::max<std::size_t>(2, keyframes / 20));
@@ -226,7 +226,26 @@ TEST(FalseClosures, ShortChainsGetTheirShareToo) {
                 add_false_closures(two, {0.5, 1}, 0);
               }),
               HasSubstr("found 2 keyframes, expected at least 3"));
-  EXPECT_EQ(add_false_closures(two, {0.0, 1}, 0), 0u);
+  EXPECT_TRUE(add_false_closures(two, {0.0, 1}, 0).empty());
+}
+
+TEST(FalseClosures, IndicesAreThoseOfTheAddedOnes) {
+  Problem problem = chain(200, 6);  // all from the first to the last keyframe
+  const std::vector<std::size_t> added = add_false_closures(problem, {0.5, 1}, 0);
+  std::vector<std::size_t> others;
+  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+    const Edge& edge = problem.closures[k];
+    if (edge.from != 0 || edge.to != 199) others.push_back(k);
+  }
+  EXPECT_EQ(added, others);
+}
+
+TEST(SortClosures, MarksFollowTheirClosures) {
+  std::vector<Edge> closures{{1, 9, {}}, {0, 5, {}}, {0, 9, {}}, {0, 5, {}}};
+  std::vector<std::size_t> marked{0, 3};
+  sort_closures(closures, &marked);  // 0-5, 0-5 (marked), 0-9, 1-9 (marked)
+  EXPECT_EQ(marked, (std::vector<std::size_t>{1, 3}));
+  EXPECT_EQ(closures[3].from, 1u);
 }
 
 TEST(FalseClosures, IdentitiesDrawIndependently) {

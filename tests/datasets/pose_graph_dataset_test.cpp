@@ -105,6 +105,7 @@ TEST(PoseGraphDataset, HoldsFixedVerticesAndAnchorsPriors) {
   ASSERT_EQ(loaded.provenance.fixed.size(), 3u);
   EXPECT_EQ(problem.ids[loaded.provenance.fixed[1]], 109);
   EXPECT_EQ(problem.closures.size(), 3u + 2u);
+  EXPECT_EQ(loaded.false_closures, std::nullopt);  // nobody knows
   ASSERT_EQ(loaded.provenance.held.size(), 2u);
   for (const Edge& held : loaded.provenance.held) {
     EXPECT_EQ(problem.ids[held.from], 102);

@@ -220,15 +220,18 @@ TEST(SimulatedClosures, FalseOnesAreCountedAndGrosslyWrong) {
   SimulatedOptions options;
   options.path = SimulatedPath::driving;
   options.closures.false_share = 0.5;
-  const Problem problem = load_simulated(options).problem;
+  const Sequence sequence = load_simulated(options);
+  const Problem& problem = sequence.problem;
   EXPECT_EQ(problem.closures.size(), 20U);
   const Path path = path_of(options.path);
-  int wrong = 0;
-  for (const Edge& edge : problem.closures) {
+  std::vector<std::size_t> wrong;
+  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+    const Edge& edge = problem.closures[k];
     const Twist e = error_of(edge, problem, path);
-    if (e.dot(edge.information * e) > 60.0) ++wrong;
+    if (e.dot(edge.information * e) > 60.0) wrong.push_back(k);
   }
-  EXPECT_EQ(wrong, 10);
+  EXPECT_EQ(wrong.size(), 10U);
+  EXPECT_EQ(sequence.false_closures, wrong);
   options.closures.false_share = 0.2;  // 10 true and 2.5 false closures, rounded to 12 or 13
   const std::size_t some = load_simulated(options).problem.closures.size();
   EXPECT_EQ(some, 13U);

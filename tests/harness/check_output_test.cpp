@@ -249,5 +249,16 @@ TEST(StoredReason, IsOneLineAndKeepsWholeCharacters) {
   EXPECT_EQ(cut.find("\\xc3\xbc"), std::string::npos);
 }
 
+TEST(CheckRejected, ClosuresAreAscendingIndices) {
+  EXPECT_NO_THROW(check_rejected(std::nullopt, 0));
+  EXPECT_NO_THROW(check_rejected({{0, 2}}, 3));
+  const auto why = [](const std::vector<std::size_t>& rejected) {
+    return refusal_of<std::runtime_error>([&] { check_rejected(rejected, 3); });
+  };
+  EXPECT_EQ(why({0, 3}), "the method rejects closure 3, expected ascending indices of 3 closures");
+  EXPECT_EQ(why({1, 0}), "the method rejects closure 0, expected ascending indices of 3 closures");
+  EXPECT_EQ(why({1, 1}), "the method rejects closure 1, expected ascending indices of 3 closures");
+}
+
 }  // namespace
 }  // namespace loopbench::tiny_store::check_output_test

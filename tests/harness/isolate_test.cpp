@@ -193,6 +193,7 @@ TEST(Pack, GivesASequenceBackBitForBit) {
   sequence.provenance.body_from_reference = Pose{Rotation(0.5, 0.5, 0.5, 0.5), {1.0, 2.0, 3.0}};
   sequence.provenance.noise = "stream 1";
   sequence.loop_candidates = {{1, 2, 0.5, true}};
+  sequence.false_closures = {{0, 2}};
   Packer first;
   first(sequence);
   Sequence back;
@@ -208,6 +209,7 @@ TEST(Pack, GivesASequenceBackBitForBit) {
             sequence.problem.closures.back().from_from_to.rotation.coeffs());
   ASSERT_EQ(back.problem.anchors.size(), 1u);
   EXPECT_EQ(back.problem.anchors[0].point_in_body, Vector3(0.1, 0.2, 0.3));
+  EXPECT_EQ(back.false_closures, sequence.false_closures);
   EXPECT_EQ(back.provenance.body_from_reference->translation, Vector3(1.0, 2.0, 3.0));
 }
 

@@ -111,6 +111,18 @@ TEST_P(Conformance, CorrectorKeepsEveryStamp) {
   }
 }
 
+TEST_P(Conformance, RejectedClosuresAreAscendingIndices) {
+  for (const auto& [name, problem] : ordinary_problems()) {
+    SCOPED_TRACE(name);
+    Report report;
+    if (!reason_to_decline(*method_, problem).empty()) continue;
+    method_->estimate(problem, report);
+    if (!report.rejected) continue;
+    EXPECT_TRUE(std::ranges::is_sorted(*report.rejected, std::ranges::less_equal{}));
+    if (!report.rejected->empty()) EXPECT_LT(report.rejected->back(), problem.closures.size());
+  }
+}
+
 TEST_P(Conformance, RejectsTimesOutsideTheSpan) {
   const Problem problem = hand_held();
   Report report;

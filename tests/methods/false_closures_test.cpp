@@ -107,6 +107,19 @@ TEST(GncStart, KeepsTheOnlyClosureThatTheOdometryAllows) {
   EXPECT_TRUE(both.report.notes.empty());
 }
 
+TEST(Dcs, StatesWhichClosuresHaveLittleWeight) {
+  const Corrected one = corrected("pose_graph_dcs", few_closures({40.1, 70.0}));
+  EXPECT_EQ(one.report.rejected, std::vector<std::size_t>{1});
+  const Corrected none = corrected("pose_graph_dcs", few_closures({40.1, 38.1}));
+  EXPECT_EQ(none.report.rejected, std::vector<std::size_t>{});
+}
+
+TEST(Report, SaysNothingOfClosuresWhereAMethodDoesNotChoose) {
+  for (const char* name : {"pose_graph", "dual", "uniform", "pose_graph_huber"}) {
+    EXPECT_EQ(corrected(name, few_closures({40.1})).report.rejected, std::nullopt) << name;
+  }
+}
+
 TEST(GncStart, ExactClosuresAreSolvedAsWellAsPreciseOnes) {
   Sequence sequence = drive(0.0);
   for (Edge& closure : sequence.problem.closures) closure.information.setIdentity();

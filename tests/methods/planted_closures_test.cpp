@@ -21,7 +21,8 @@ void expect_named(const Problem& problem, std::size_t count) {
   for (std::int64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE(testing::Message() << count << " planted, seed " << seed);
     Problem planted = problem;
-    ASSERT_EQ(add_false_closures(planted, {static_cast<double>(count) / all, seed}, 0), count);
+    ASSERT_EQ(add_false_closures(planted, {static_cast<double>(count) / all, seed}, 0).size(),
+              count);
     const ClosureLedger ledger = closure_ledger(planted);
     EXPECT_TRUE(is_contradicted(ledger.verdict));
     for (std::size_t rank = 0; rank < count; ++rank) {

@@ -22,7 +22,7 @@ std::set<std::string> words(const std::string& text) {
 // Every metric is in one of these lists: lower is better, no direction, or has a test of its own.
 const std::set<std::string> kErrors = words(
     "ate axis_error ape rpe drift end_error snippet_ate segments along_cross jumps causal_ate "
-    "causal_rpe closure_jumps update_time");
+    "causal_rpe closure_jumps update_time closures_kept_false closures_dropped_true");
 const std::set<std::string> kDescriptions =
     words("closure_residual interpolation_floor coverage extrinsic_offset diagnostics");
 const std::set<std::string> kOthers = words(
@@ -65,6 +65,9 @@ std::map<std::string, std::pair<Better, double>> directions(const std::string& m
                      Times::dense,
                      {.align = Align::none});
   cell.evaluation.context.loop_candidates = &candidates;
+  const std::vector<std::size_t> false_closures{1}, rejected{0};
+  cell.evaluation.context.false_closures = &false_closures;
+  cell.evaluation.context.rejected_closures = &rejected;
   const std::vector<Matrix6> covariances(cell.at_keyframes.size(), Matrix6::Identity());
   cell.evaluation.context.estimate_covariances = &covariances;
   std::map<std::string, std::pair<Better, double>> out;

@@ -111,6 +111,7 @@ Correction correct(Problem problem,
   out.keyframes = curve->sample(stamps(out.problem.keyframes));
   check(out.keyframes, choice.label);
   check_covariances(out.report.covariances, out.keyframes.size());
+  check_rejected(out.report.rejected, out.problem.closures.size());
   out.output = curve->sample(at);
   check(out.output, choice.label);
   const std::vector<std::size_t> rejected =

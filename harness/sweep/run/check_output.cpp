@@ -110,6 +110,15 @@ void check_covariances(const std::vector<Matrix6>& covariances, std::size_t keyf
   }
 }
 
+void check_rejected(const std::optional<std::vector<std::size_t>>& rejected, std::size_t closures) {
+  if (!rejected) return;
+  for (std::size_t i = 0; i < rejected->size(); ++i) {
+    const std::size_t k = (*rejected)[i];
+    if (k < closures && (i == 0 || (*rejected)[i - 1] < k)) continue;
+    reject("the method rejects closure {}, expected ascending indices of {} closures", k, closures);
+  }
+}
+
 void check_report(const methods::Report& report) {
   check_count(report.phases.size(), kMostItems, "phases");
   check_count(report.counts.size(), kMostItems, "counts");

@@ -5,6 +5,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,10 @@ class CheckedCurve final : public Curve {
 /// Throws std::runtime_error unless the covariances of a report are empty, or finite, symmetric and
 /// one per keyframe.
 void check_covariances(const std::vector<Matrix6>& covariances, std::size_t keyframes);
+
+/// Throws std::runtime_error unless the rejected closures of a report are unset, or ascending
+/// indices of closures.
+void check_rejected(const std::optional<std::vector<std::size_t>>& rejected, std::size_t closures);
 
 /// Throws std::runtime_error if a part of the report cannot be stored or displayed: more items or
 /// longer texts than the limits, texts that are not UTF-8 or contain control characters, numbers

@@ -131,7 +131,7 @@ void walk(Archive& a, T& candidate) {
 
 template <class Archive, Either<Sequence> T>
 void walk(Archive& a, T& s) {
-  a(s.name)(s.problem)(s.reference)(s.provenance)(s.loop_candidates);
+  a(s.name)(s.problem)(s.reference)(s.provenance)(s.loop_candidates)(s.false_closures);
 }
 
 /// The bytes of the values, one after another.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "datasets/core/closure_places.hpp"
@@ -22,6 +23,7 @@ namespace {
 struct Estimate {
   const Curve& curve;
   const std::vector<Matrix6>& covariances;  ///< one per keyframe; empty: none stated
+  const std::optional<std::vector<std::size_t>>& rejected;  ///< closures
   const metrics::SolveWithout& without;
 };
 
@@ -53,7 +55,9 @@ metrics::Context context_of(const Sequence& sequence,
           .protocol = protocol,
           .loop_candidates = &sequence.loop_candidates,
           .estimate_covariances = estimate.covariances.empty() ? nullptr : &estimate.covariances,
-          .solve_without = &estimate.without};
+          .solve_without = &estimate.without,
+          .false_closures = sequence.false_closures ? &*sequence.false_closures : nullptr,
+          .rejected_closures = estimate.rejected ? &*estimate.rejected : nullptr};
 }
 
 /// Whether all positions are equal to within 1e-9 of the reference's largest distance from its
@@ -167,6 +171,7 @@ CellResult run_cell(const Cell& cell,
     // Only metrics read them: they are neither sent to the sweep nor stored.
     const std::vector<Matrix6> covariances = std::exchange(result.report.covariances, {});
     check_covariances(covariances, sequence.problem.keyframes.size());
+    check_rejected(result.report.rejected, sequence.problem.closures.size());
     std::map<std::vector<std::size_t>, Trajectory> solved;  // asked for under every protocol
     const metrics::SolveWithout without = [&](const std::vector<std::size_t>& closures) {
       auto found = solved.find(closures);
@@ -175,7 +180,7 @@ CellResult run_cell(const Cell& cell,
       }
       return found->second;
     };
-    const Estimate estimate{checked, covariances, without};
+    const Estimate estimate{checked, covariances, result.report.rejected, without};
     save_estimate(cell, sweep, sequence, checked);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";
