@@ -17,6 +17,7 @@ SMOOTHERS = ("tracked_frames", "cubic_spline", "gp_wnoa", "spline, quasi-keyfram
 SHOWN_ROBUST = ("dual", "pose_graph_huber", "pose_graph_gnc_tls", "pose_graph_pcm", "consensus")
 FALSE_CLOSURES = ("raw", "pose_graph", "pose_graph_huber", "pose_graph_cauchy", "pose_graph_dcs", "pose_graph_gnc_tls",
                   "pose_graph_pcm", "consensus")
+CHOOSING = FALSE_CLOSURES[4:]
 ROWS = """
 select cell.id, cell.position, cell.sequence, repeat, method, cell.status, cpu_seconds_median as seconds,
   peak_memory as memory, group_name as grouped, sequence.closures as closures,
@@ -137,6 +138,11 @@ def outlier_parts(program, store):
     return {"outliers": shown.markdown()}, {"outliers": Table(head, lines)}
 
 
+def share_of(sequence):
+    """Share of false closures [%]."""
+    return 100 * float(re.search(r"share=(.*)\)", sequence)[1])
+
+
 def share_part(simulated, kitti):
     """Mean ATE [m] by the share of false closures."""
     lines = []
@@ -144,11 +150,31 @@ def share_part(simulated, kitti):
         by_share = defaultdict(list)
         for (sequence, _), each in ates(rows_of(store))[0].items():
             if sequence.startswith(first):
-                by_share[100 * float(re.search(r"share=(.*)\)", sequence)[1])].append(each)
+                by_share[share_of(sequence)].append(each)
         for share, runs in sorted(by_share.items()):
             means = [sum(each[m] for each in runs) / len(runs) for m in FALSE_CLOSURES]
             lines.append((f"{title} {share:g} %", *(f"{mean:.3f}" if mean < 10 else digits(mean) for mean in means)))
     return Table(("false", *(m.replace("pose_graph_", "") for m in FALSE_CLOSURES)), lines).markdown()
+
+
+def choice_part(*stores):
+    """Mean shares [%] of false closures that were kept and of true ones that were dropped, by the share of false ones. Each
+    store has a title and the first characters of its sequences."""
+    lines = []
+    for title, store, first in stores:
+        found = defaultdict(lambda: defaultdict(list))
+        for row in rows_of(store):
+            if row["rmse"] is not None and row["label"].startswith("closures_") and row["sequence"].startswith(first):
+                found[share_of(row["sequence"])][row["method"], row["label"]].append(row["rmse"])
+
+        def mean(runs, method, name):
+            values = runs[method, name]
+            return f"{sum(values) / len(values):.1f}" if values else "-"
+
+        for share, runs in sorted(found.items()):
+            lines.append((f"{title} {share:g} %", *(f"{mean(runs, m, 'closures_kept_false')}; "
+                                                    f"{mean(runs, m, 'closures_dropped_true')}" for m in CHOOSING)))
+    return Table(("false", *(m.replace("pose_graph_", "") for m in CHOOSING)), lines).markdown()
 
 
 def spacing_part(program, stores):

@@ -25,7 +25,7 @@ ROOT = RESULTS.parent
 sys.path[:0] = [str(RESULTS), str(RESULTS / "paper")]
 
 from evidence_tables import (  # noqa: E402
-    Table, chain_parts, cost_table, graph_parts, outlier_parts, share_part, spacing_part, status_text,
+    Table, chain_parts, choice_part, cost_table, graph_parts, outlier_parts, share_part, spacing_part, status_text,
 )
 from article.verdicts import csv_text  # noqa: E402
 from pages import with_parts  # noqa: E402
@@ -93,7 +93,10 @@ def time_text(program, stores):
 
 def made(program):
     """Generated parts of each of PAGES, and complete tables."""
-    shares = {"shares": share_part(program.store("configs/outliers.yaml"), program.store("configs/outliers_kitti.yaml"))}
+    simulated, kitti = (program.store(f"configs/{name}.yaml") for name in ("outliers", "outliers_kitti"))
+    shares = {"shares": share_part(simulated, kitti),
+              "choices": choice_part(("drive", simulated, "driving ("), ("room", simulated, "room ("),
+                                     ("KITTI 00", kitti, "true list ("))}
     chains, outliers, graphs, *spacing = stores = [program.store(config) for config in SWEEPS]
     costs, parts, tables = cost_table(stores), {}, {}
     for own, complete in (chain_parts(program, chains), outlier_parts(program, outliers), graph_parts(graphs)):

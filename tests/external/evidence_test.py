@@ -15,13 +15,13 @@ LOOPBENCH = os.path.abspath(sys.argv[1])
 sys.path.insert(0, str(EVIDENCE))
 
 from make import Program, builds_of, with_parts  # noqa: E402
-from evidence_tables import chain_parts, cost_table, outlier_parts, status_text  # noqa: E402
+from evidence_tables import chain_parts, choice_part, cost_table, outlier_parts, status_text  # noqa: E402
 
 DRIVE = "dataset: simulated, closures.max: 4"
 CHAINS = "".join(f"  - {{{DRIVE}, label: {odometer} {route}, group: KITTI {route}, seed: {seed}}}\n" for seed, (odometer, route) in
                  enumerate((("kiss_icp", "00"), ("kiss_icp", "08"), ("viso2", "00")), 1))
 METHODS = """methods: [raw, uniform, dual, {method: dual, label: dual calibrated, calibrate: true}, pose_graph_pcm]
-metrics: [ate]
+metrics: [ate, closures_kept_false, closures_dropped_true]
 times: keyframes
 timing: 1
 """
@@ -83,6 +83,18 @@ class Evidence(unittest.TestCase):
         self.assertEqual(cost["cells"], "5")
         self.assertEqual(status_text([self.chains, self.outliers]), "25 cells: 0 declined, 0 failed.\n")
         self.assertEqual(len(builds_of(self.chains)), 1)
+
+    def test_choices_are_those_of_the_rows(self):
+        found = {}
+        with open(self.outliers / "rows.csv", encoding="utf-8") as text:
+            for row in csv.DictReader(text):
+                if row["method"] == "pose_graph_pcm" and row["rmse"] and "share=0.5" in row["sequence"]:
+                    found[row["label"]] = float(row["rmse"])
+        choices = cells(choice_part(("drive", self.outliers, "kiss_icp")))
+        self.assertEqual(choices["drive 50 %"]["pcm"],
+                         f"{found['closures_kept_false']:.1f}; {found['closures_dropped_true']:.1f}")
+        self.assertRegex(choices["drive 0 %"]["pcm"], r"^-; \d+\.\d$")  # none is false
+        self.assertEqual(choices["drive 50 %"]["dcs"], "-; -")  # not in this sweep
 
     def test_written_parts_are_stable(self):
         page = "# Page\n\n<!-- a, written by make.py -->\nold\nold\n\nprose\n"
