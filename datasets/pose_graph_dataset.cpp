@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "datasets/core/disabled_options.hpp"
+#include "datasets/derive/breaks.hpp"
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/derive/odometry.hpp"
@@ -26,8 +27,10 @@ Rotation camera_from_vehicle() {
 std::vector<std::size_t> kept_poses(std::size_t size,
                                     std::size_t step,
                                     const std::vector<Edge>& closures,
+                                    const std::vector<std::size_t>& breaks,
                                     const PoseGraph& graph) {
   std::vector<bool> keep(size, false);
+  for (const std::size_t arriving : breaks) keep[arriving - 1] = keep[arriving] = true;
   for (const std::size_t vertex : graph.fixed) keep[vertex] = true;
   for (const Anchor& prior : graph.priors) keep[prior.keyframe] = true;
   for (std::size_t i = 0; i < size; i += step) keep[i] = true;
@@ -184,8 +187,11 @@ Problem derive_problem(const PoseGraph& graph,
   if (o.skip_placeholders) drop_placeholders(closures);
   subsample_closures(closures, poses, static_cast<std::size_t>(o.closures_max));
 
-  const auto kept =
-      kept_poses(poses.size(), static_cast<std::size_t>(o.keyframes_every), closures, graph);
+  const auto kept = kept_poses(poses.size(),
+                               static_cast<std::size_t>(o.keyframes_every),
+                               closures,
+                               breaks_at_ids(o.breaks, graph.ids),
+                               graph);
   std::vector<std::size_t> keyframe_of(poses.size(), 0);
   for (std::size_t k = 0; k < kept.size(); ++k) keyframe_of[kept[k]] = k;
   for (Edge& edge : closures) {
@@ -204,6 +210,7 @@ Problem derive_problem(const PoseGraph& graph,
       kept.size() < poses.size() ? bridge(parts.odometry, kept) : std::move(parts.odometry);
   problem.closures = std::move(closures);
   for (const std::size_t k : kept) problem.ids.push_back(graph.ids[k]);
+  free_steps(problem, breaks_at_ids(o.breaks, problem.ids));
   problem.anchors = graph.priors;
   for (Anchor& anchor : problem.anchors) anchor.keyframe = keyframe_of[anchor.keyframe];
   std::ranges::stable_sort(problem.anchors, {}, &Anchor::keyframe);
@@ -248,6 +255,9 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
     sequence.provenance.notes.push_back(fmt::format(
         "the information of the scale in {} edges is not used: scales have no weight of their own",
         graph.scale_information));
+  }
+  if (const auto breaks = breaks_at_ids(o.breaks, sequence.problem.ids); !breaks.empty()) {
+    sequence.provenance.notes.push_back(breaks_note(sequence.problem, breaks));
   }
   sequence.name = o.name.empty() ? default_name(o.path) : o.name;
   sequence.provenance.sensor = o.sensor;

@@ -44,6 +44,7 @@ struct PoseGraphOptions {
   InformationRules rules;
   double period = 0.1;
   std::int64_t keyframes_every = 1;
+  std::string breaks;
   GraphClosures closures = GraphClosures::edges;
   std::int64_t closures_max = 0;
   bool skip_placeholders = false;
@@ -85,6 +86,11 @@ void fields(PoseGraphOptions& o, Visit visit) {
         o.keyframes_every,
         "keyframe interval [poses]; endpoints of loop closures are always keyframes",
         Between{1});
+  visit(
+      "breaks",
+      o.breaks,
+      "ids of vertices at which the estimate starts again, separated by blanks: the odometry that "
+      "arrives there is of unknown motion; empty: none");
   visit("closures.source",
         o.closures,
         "source of loop closures; edges: all edges except the odometry i, i + 1");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "datasets/bags/bag_trajectory.hpp"
+#include "datasets/derive/breaks.hpp"
 #include "datasets/trajectory_inputs.hpp"
 
 namespace loopbench {
@@ -112,6 +113,9 @@ Problem derive_problem(const TrajectoryInputs& in,
                        const TrajectoryOptions& o,
                        std::vector<std::size_t>* false_closures) {
   std::vector<std::size_t> kept = choose_keyframes(in.estimate, o.keyframes);
+  for (const std::size_t arriving : breaks_at_stamps(o.breaks, in.estimate, o.reach.max_diff)) {
+    kept.insert(kept.end(), {arriving - 1, arriving});  // frames between two maps are in neither
+  }
   std::vector<Edge> closures;
   if (o.closures == ClosureSource::file) {
     closures = in.graph_closures;
@@ -119,12 +123,12 @@ Problem derive_problem(const TrajectoryInputs& in,
       closures = as_edges(in.closures, in.estimate, o.reach.max_diff, o.closures_file);
     }
     for (const Edge& edge : closures) kept.insert(kept.end(), {edge.from, edge.to});
-    std::sort(kept.begin(), kept.end());
-    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-    for (Edge& edge : closures) {
-      edge.from = keyframe_index(kept, edge.from);
-      edge.to = keyframe_index(kept, edge.to);
-    }
+  }
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  for (Edge& edge : closures) {
+    edge.from = keyframe_index(kept, edge.from);
+    edge.to = keyframe_index(kept, edge.to);
   }
 
   Problem problem;
@@ -133,6 +137,7 @@ Problem derive_problem(const TrajectoryInputs& in,
   problem.frames = in.frames.empty() ? std::move(poses.frames)
                                      : non_keyframes_between(problem.keyframes, in.frames);
   problem.odometry = odometry_edges(problem.keyframes, o.odometry);
+  free_steps(problem, breaks_at_stamps(o.breaks, problem.keyframes, o.reach.max_diff));
   const std::uint64_t noise = identity(o, problem.keyframes);
   if (o.closures == ClosureSource::reference) {
     closures = with_noise(
@@ -165,6 +170,9 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
     const Trajectory& run = in.frames.empty() ? in.estimate : in.frames;
     add_anchors(*in.anchors, o.anchors_file, run, o.anchors_max_gap, sequence);
   }
+  const std::vector<std::size_t> breaks =
+      breaks_at_stamps(o.breaks, sequence.problem.keyframes, o.reach.max_diff);
+  if (!breaks.empty()) sequence.provenance.notes.push_back(breaks_note(sequence.problem, breaks));
   describe(in, o, false_closures.size(), sequence);
   if (o.closures == ClosureSource::reference || o.false_closures.share > 0.0) {
     sequence.false_closures = std::move(false_closures);

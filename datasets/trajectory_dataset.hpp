@@ -46,6 +46,7 @@ struct TrajectoryOptions {
   double offset = 0.0;  ///< reference stamp - estimate stamp [s]
   KeyframeChoice keyframes;
   EdgeNoise odometry;
+  std::string breaks;
   ClosureSource closures = ClosureSource::none;
   std::string closures_file;
   double closures_radius = 0.5;
@@ -126,6 +127,10 @@ void fields(TrajectoryOptions& o, Visit visit) {
         o.odometry.sigma_r_per_rad,
         "assumed rotation standard deviation per square root of rotation angle [rad/sqrt(rad)]",
         any);
+  visit("breaks",
+        o.breaks,
+        "stamps of poses at which the estimate starts again, separated by blanks [s]: the odometry "
+        "that arrives there is of unknown motion; empty: none");
   visit("closures.source",
         o.closures,
         "source of loop closures; file: closure file; reference: measured in the reference with "

@@ -57,7 +57,7 @@ const std::map<std::string, std::string> kExamples{
     {"correct",
      "  loopbench correct graph.g2o -o corrected.g2o --plot corrected.svg\n"
      "  loopbench correct run.txt --loops loops.txt --method dual_pcm -o corrected.txt\n"
-     "  loopbench correct run.txt --anchors points.txt --method dual -o corrected.txt\n"},
+     "  loopbench correct run.txt --loops loops.txt --break 131.5 -o corrected.txt\n"},
     {"loops",
      "  loopbench loops graph.g2o\n"
      "  loopbench loops run.txt --loops loops.txt --csv ledger.csv --plot loops.svg\n"},

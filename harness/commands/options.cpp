@@ -85,6 +85,18 @@ void declare_problem(CLI::App& command, CorrectArguments& problem) {
             problem.loops,
             "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a g2o "
             "graph whose vertices are the poses of ESTIMATE"));
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--break",
+          [&problem](const std::vector<std::string>& given) {
+            problem.settings.push_back(
+                {fmt::format("breaks={}", fmt::join(given, " ")), "--break"});
+          },
+          "The estimate starts again at this pose (a new map, a robot that was carried): the "
+          "odometry that arrives there is of unknown motion; repeatable")
+      ->type_name("STAMP|ID")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   CLI::Option* const set =
       command
           .add_option_function<std::vector<std::string>>(

@@ -62,7 +62,8 @@ void report_chi2(double chi2, std::size_t dof, const Problem& problem, Report& r
   report.count("chi2_per_dof", ratio);
   const bool is_high = ratio > kFar && is_too_large(chi2, dof);
   const bool is_low = ratio < 1.0 / kFar && ratio < quantile(-kNormalQuantile, dof);
-  if ((!is_high && !is_low) || why_not_judged(problem).empty()) return;
+  const bool is_judged = problem.anchors.empty() && why_not_judged(problem).empty();
+  if ((!is_high && !is_low) || is_judged) return;
   report.notes.push_back(
       fmt::format("chi2 per degree of freedom is {:.3g} with {} degrees of freedom: the stated "
                   "covariances are too {}",

@@ -160,11 +160,14 @@ std::optional<InputFinding> join_maps(PartedPairs& parted, const Trajectory& fil
   const double was = position_error(kept, similarity(kept)), is = position_error(found);
   if (!(is < most * was)) return std::nullopt;
   std::vector<std::string> places;
+  std::string breaks;  // options
   bool restarts = false;
   for (std::size_t k = 1; k < found.parts.size(); ++k) {
     const StampedPose& first = kept.estimate[found.parts[k].begin];
     restarts |= is_origin(first.world_from_body);
-    if (places.size() < kListed) places.push_back(place(file, row_at(file, first.stamp)));
+    const std::size_t row = row_at(file, first.stamp);
+    if (places.size() < kListed) places.push_back(place(file, row));
+    breaks += " --break " + to_text(file[row].stamp);
   }
   if (!restarts && !(is < kMostOfDrift * error_of_other_parts(pairs, begins))) return std::nullopt;
   if (found.parts.size() > kListed + 1)
@@ -178,7 +181,9 @@ std::optional<InputFinding> join_maps(PartedPairs& parted, const Trajectory& fil
                   fmt::join(places, ", "),
                   was,
                   is),
-      "evaluate its parts, each with its own alignment (eval --parts auto)",
+      fmt::format("evaluate its parts, each with its own alignment (eval --parts auto); correct it "
+                  "with unknown motion there (correct{})",
+                  breaks),
       1.0 - is / was,
       static_cast<double>(found.parts.size())};
   join(found);

@@ -1,6 +1,7 @@
 #include "methods/correctors/consensus/calibrated.hpp"
 
 #include "methods/correctors/consensus/judgement_text.hpp"
+#include "methods/correctors/consensus/unknown_motion.hpp"
 
 namespace loopbench::methods {
 
@@ -25,6 +26,7 @@ Problem calibrated(const Problem& problem, Report& report) {
   shrink.head<3>().setConstant(1.0 / factors.translation);
   shrink.tail<3>().setConstant(1.0 / factors.rotation);
   for (Edge& edge : out.odometry) {
+    if (is_unknown_motion(edge, problem.planar)) continue;
     edge.information = (shrink.asDiagonal() * edge.information * shrink.asDiagonal()).eval();
   }
   for (Edge& edge : out.closures) edge.information /= factors.closures * factors.closures;

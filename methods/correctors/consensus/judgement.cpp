@@ -5,6 +5,8 @@
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/consensus/judge.hpp"
+#include "methods/correctors/consensus/odometry_fault.hpp"
+#include "methods/correctors/consensus/unknown_motion.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
 #include "methods/solvers/initial_values.hpp"
@@ -35,40 +37,48 @@ void add_unknown_steps(Problem& problem) {
   std::ranges::sort(problem.odometry, {}, &Edge::from);
 }
 
+/// The problem without the odometry edges of unknown motion.
+Problem measured_part(Problem problem) {
+  std::erase_if(problem.odometry,
+                [&](const Edge& edge) { return is_unknown_motion(edge, problem.planar); });
+  return problem;
+}
+
 bool is_motion_measured(const Problem& problem) {
   return 2 * problem.odometry.size() >= problem.keyframes.size() - 1;
 }
 
 }  // namespace
 
-std::string why_not_judged(const Problem& problem) {
-  if (!problem.anchors.empty()) {
-    return "the problem has anchors (" + std::to_string(problem.anchors.size()) +
-           "), which the method does not use: use pose_graph";
-  }
-  if (problem.closures.empty()) return "the problem has no loop closures";
+std::string why_no_odometry(const Problem& problem) {
   if (has_scale_drift(problem)) {
     return "edges change the scale, which this method does not estimate: use pose_graph";
   }
-  if (const auto unreached = first_unconnected(problem)) {
+  const Problem measured = measured_part(problem);
+  if (const auto unreached = first_unconnected(measured)) {
     return "the graph is not connected: no path from keyframe " + problem.name_of(0) +
            " to keyframe " + problem.name_of(*unreached);
   }
-  if (!is_motion_measured(problem)) {
-    return "odometry joins " + std::to_string(problem.odometry.size()) + " of " +
+  if (!is_motion_measured(measured)) {
+    return "odometry joins " + std::to_string(measured.odometry.size()) + " of " +
            std::to_string(problem.keyframes.size() - 1) +
            " pairs of neighbouring keyframes, fewer than half: use pose_graph";
   }
   return "";
 }
 
+std::string why_not_judged(const Problem& problem) {
+  return problem.closures.empty() ? "the problem has no loop closures" : why_no_odometry(problem);
+}
+
 ClosureJudgement judge_closures(const Problem& problem) {
-  return problem.planar ? consensus::Judge<Se2>(problem).run()
-                        : consensus::Judge<Se3>(problem).run();
+  const Problem measured = measured_part(problem);
+  return problem.planar ? consensus::Judge<Se2>(measured).run()
+                        : consensus::Judge<Se3>(measured).run();
 }
 
 Problem agreed_problem(const Problem& problem, const ClosureJudgement& judgement) {
-  Problem out{problem.keyframes, problem.odometry, {}, {}, problem.planar};
+  Problem out{problem.keyframes, measured_part(problem).odometry, {}, {}, problem.planar};
   out.ids = problem.ids;
   Twist shrink;
   shrink.head<3>().setConstant(1.0 / judgement.factors.translation);
