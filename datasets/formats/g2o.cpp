@@ -89,6 +89,9 @@ PoseGraph read_g2o(TextFile& file, const InformationRules& rules) {
   }
   for (PriorRecord& prior : records.priors) {
     prior.anchor.keyframe = index_of(file, out, prior.id, prior.line, "prior");
+    for (const OffsetRecord& offset : records.offsets) {
+      if (prior.parameter == offset.id) prior.anchor.point_in_body = offset.point;
+    }
     out.priors.push_back(prior.anchor);
   }
   for (const EdgeEnds& fixed : records.fixed) {

@@ -20,7 +20,8 @@ namespace loopbench {
 /// Line that measures the position of a vertex.
 struct PriorRecord {
   std::int64_t id = 0;
-  Anchor anchor;  ///< keyframe not set
+  Anchor anchor;                               ///< keyframe not set, nor the point of a parameter
+  std::optional<std::int64_t> parameter = {};  ///< id of the PARAMS_SE3OFFSET line that it names
   std::size_t line = 0;
 };
 
@@ -65,7 +66,7 @@ inline std::optional<PriorRecord> read_prior(const TextFile& file,
   PriorRecord out;
   out.line = line.number;
   out.id = columns.integer("id");
-  if (has_parameter) columns.integer("parameter");
+  if (has_parameter) out.parameter = columns.integer("parameter");
   for (int i = 0; i < tag.dimension; ++i) out.anchor.position[i] = columns.number("position");
   Rotation rotation = Rotation::Identity();
   if (tag.has_rotation && is_spatial) {

@@ -222,6 +222,16 @@ void read_edge(const TextFile& file, Record record, const Line& line, Records& o
   out.ends.push_back(ends);
 }
 
+/// The rotation of the sensor has no effect on its position.
+OffsetRecord read_offset(const TextFile& file, const Line& line) {
+  Columns columns(file, line);
+  columns.word();
+  OffsetRecord out;
+  out.id = columns.integer("id");
+  for (double& x : out.point) x = columns.number("position");
+  return out;
+}
+
 Records read_g2o_part(TextFile& file, const InformationRules& rules) {
   first_line(file);
   Records out;
@@ -229,6 +239,7 @@ Records read_g2o_part(TextFile& file, const InformationRules& rules) {
   std::size_t first_line_number = 0;
   for (Line line; file.next(line);) {
     const std::string_view word = Columns(file, line).peek();
+    if (word == "PARAMS_SE3OFFSET") out.offsets.push_back(read_offset(file, line));
     if (word.starts_with("PARAMS")) continue;
     if (word == "FIX") {
       Columns columns(file, line);
@@ -290,6 +301,7 @@ Records read_records(TextFile& file, const InformationRules& rules) {
     append(out.edges, std::move(more.edges));
     append(out.fixed, std::move(more.fixed));
     append(out.priors, std::move(more.priors));
+    append(out.offsets, std::move(more.offsets));
     out.lines += more.lines;
     out.altered += more.altered;
     out.scale_information += more.scale_information;

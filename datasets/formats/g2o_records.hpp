@@ -27,22 +27,29 @@ struct EdgeEnds {
   std::size_t line = 0;
 };
 
+/// Line PARAMS_SE3OFFSET: the sensor in the body.
+struct OffsetRecord {
+  std::int64_t id = 0;
+  Vector3 point = Vector3::Zero();  ///< its position [m]
+};
+
 struct Records {
   GraphKind kind = GraphKind::spatial;
   std::vector<VertexRecord> vertices;
   std::vector<EdgeEnds> ends;
   std::vector<Edge> edges;  ///< one per `ends`; indices not set, information of a twist
   std::vector<PriorRecord> priors;
+  std::vector<OffsetRecord> offsets;
   std::vector<EdgeEnds> fixed;        ///< `from` of each
   std::size_t lines = 0;              ///< of the part of the file
   std::size_t altered = 0;            ///< edges whose information was not positive definite
   std::size_t scale_information = 0;  ///< edges with information of the scale, which is not used
 };
 
-/// Reads every VERTEX, EDGE, PRIOR and FIX line; PARAMS lines are skipped. Throws InputError for
-/// unknown tags, a wrong number of columns, mixed kinds, quaternions that are not unit, scales that
-/// are not positive, information that `rules` cannot make positive definite, and edges from a
-/// vertex to itself.
+/// Reads every VERTEX, EDGE, PRIOR, PARAMS_SE3OFFSET and FIX line; other PARAMS lines are skipped.
+/// Throws InputError for unknown tags, a wrong number of columns, mixed kinds, quaternions that are
+/// not unit, scales that are not positive, information that `rules` cannot make positive definite,
+/// and edges from a vertex to itself.
 Records read_records(TextFile& file, const InformationRules& rules);
 
 }  // namespace loopbench

@@ -12,7 +12,8 @@ namespace loopbench::methods {
 /// Estimates factors on the stated deviations together with the closures that agree with each other
 /// and with the odometry (consensus/judgement.hpp), and corrects by PoseGraphOptimizer with both.
 /// Steps of the odometry that slipped, or after which the map starts again, are freed and named.
-/// If the data do not decide, the keyframes are returned unchanged.
+/// Outlying anchors are dropped and named (consensus/anchor_judgement.hpp), after the closures are
+/// judged without anchors. If the data do not decide, the keyframes are returned unchanged.
 ///
 /// Robust losses decide by the stated covariances: too large, and false closures pass; too small,
 /// and true ones are dropped. Here the odometry's deviations are those that the closures show.
@@ -25,12 +26,15 @@ class Consensus final : public Corrector {
   explicit Consensus(const Options& options, std::shared_ptr<const ClosureJudgement> known = {})
       : options_(options), known_(std::move(known)) {}
 
-  /// Declines what judge_closures() does not judge, anchors among it, and names pose_graph.
+  /// Declines what judge_closures() does not judge, and names pose_graph. Anchors are enough.
   std::string why_declined(const Problem& problem) const override;
 
+  bool accepts_anchors() const override { return true; }
+
   /// Counts: `decided` (0 or 1), `closures_kept`, `factor_t`, `factor_r` and `factor_closures` on
-  /// standard deviations, `steps_freed`, `evidence` and `rival_evidence` (log odds), and those of
-  /// PoseGraphOptimizer. Throws std::runtime_error when the solver finds no usable solution.
+  /// standard deviations, `steps_freed`, `evidence` and `rival_evidence` (log odds), with anchors
+  /// `anchors_kept` and `factor_anchors`, and those of PoseGraphOptimizer. Throws
+  /// std::runtime_error when the solver finds no usable solution.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:

@@ -133,9 +133,13 @@ Catalogue with_judgement(Catalogue catalogue, const ClosureCheck& check) {
 }
 
 /// The method that is wanted, or the default for closures with this check.
-std::string method_name(const CorrectArguments& a, const std::optional<ClosureCheck>& check) {
+std::string method_name(const CorrectArguments& a,
+                        const Problem& problem,
+                        const std::optional<ClosureCheck>& check) {
   if (!a.method.empty()) return a.method;
-  return check && check->judgement != nullptr && !a.trusts_loops ? kConsensus : "pose_graph";
+  const bool is_judged = check ? check->judgement != nullptr : !problem.anchors.empty();
+  const bool declines = !methods::Consensus({}).why_declined(problem).empty();
+  return is_judged && !declines && !a.trusts_loops ? kConsensus : "pose_graph";
 }
 
 /// Removes notes of the method that the sentence of the check contains.
@@ -219,7 +223,7 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   if (is_checked && !problem.closures.empty()) check = check_closures(problem);
   const std::chrono::duration<double> checked = std::chrono::steady_clock::now() - begin;
   const MethodChoice choice =
-      given ? *given : method_without_reference(method_name(a, check), catalogue);
+      given ? *given : method_without_reference(method_name(a, problem, check), catalogue);
   const bool has_measurements = !problem.closures.empty() || !problem.anchors.empty();
   if (!has_measurements && !is_graph(a) && uses_closures(choice, catalogue)) {
     throw InputError(a.estimate + ": " + choice.label +

@@ -59,11 +59,17 @@ nlohmann::json rejected_json(const Correction& c) {
 
 CheckSentence check_sentence(const Correction& c) {
   if (!c.check) return {};
-  return sentence(*c.check,
-                  c.problem,
-                  {.method = c.method,
-                   .is_consensus = c.is_consensus,
-                   .rejected = c.report.rejected.value_or(std::vector<std::size_t>{})});
+  CheckSentence out =
+      sentence(*c.check,
+               c.problem,
+               {.method = c.method,
+                .is_consensus = c.is_consensus,
+                .rejected = c.report.rejected.value_or(std::vector<std::size_t>{})});
+  constexpr std::string_view kUnmoved = "nothing is moved: ";
+  if (!c.problem.anchors.empty() && out.text.starts_with(kUnmoved)) {  // anchors may move them
+    out.text.replace(0, kUnmoved.size(), "no closure is used: ");
+  }
+  return out;
 }
 
 std::string text(const Correction& c) {
