@@ -43,6 +43,21 @@ void expect_prior(const PoseGraph& graph, const Vector3& position, const Matrix3
   EXPECT_NEAR((anchor.covariance - covariance).norm(), 0.0, 1e-12);
 }
 
+// g2o: error = Z^-1 X offset. A line that names no parameter, or an unknown one, measures the
+// vertex.
+TEST(G2oRecords, PriorsMeasureTheSensorOfTheirParameter) {
+  const std::string offset = "PARAMS_SE3OFFSET 4 1 0.5 -2 0 0 0 1\n";
+  const std::string pose = " 9 8 7 0 0 0 1 4 0 0 0 0 0 4 0 0 0 0 4 0 0 0 1 0 0 1 0 1\n";
+  const auto point = [&](const std::string& prior) {
+    return with_lines(offset, "EDGE_SE3_PRIOR 7" + prior + pose).priors.front().point_in_body;
+  };
+  EXPECT_EQ(point(" 4"), Vector3(1.0, 0.5, -2.0));
+  EXPECT_EQ(point(" 5"), Vector3::Zero());
+  EXPECT_EQ(point(""), Vector3::Zero());
+  const std::string why = refusal([] { with_lines("PARAMS_SE3OFFSET 4 1 0.5\n", "FIX 3\n"); });
+  EXPECT_NE(why.find(":1: "), std::string::npos) << why;
+}
+
 TEST(G2oRecords, PriorsAreAnchors) {
   const std::string full = "4 0 0 0 0 0 16 0 0 0 0 25 0 0 0 1 0 0 1 0 1\n";
   const std::string gnss = "4 0 0 0 0 0 16 0 0 0 0 25 0 0 0 0 0 0 0 0 0\n";
