@@ -1,5 +1,5 @@
-// consensus: densities worked by hand, equal results of its factorisations, planted false closures
-// singly, at random and in families, unknown steps, and what is left undecided.
+// consensus: planted false closures singly, at random and in families, unknown steps, and what is
+// left undecided. Its densities: consensus_model_test.cpp.
 #include "methods/correctors/consensus.hpp"
 
 #include <gmock/gmock.h>
@@ -14,6 +14,7 @@
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
 #include "tests/support/corrected.hpp"
+#include "tests/support/measured_line.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/rounds.hpp"
 #include "tests/support/simulated_drive.hpp"
@@ -25,105 +26,6 @@ using namespace methods::consensus;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-std::vector<std::size_t> indices(std::size_t count) {
-  std::vector<std::size_t> out(count);
-  std::iota(out.begin(), out.end(), std::size_t{0});
-  return out;
-}
-
-/// Steps of 1 m along x with a deviation of 2 cm, and closures that measure `metres`.
-Problem line(std::size_t steps, const std::vector<double>& metres) {
-  std::vector<double> x(steps + 1);
-  std::iota(x.begin(), x.end(), 0.0);
-  Problem out = along_x(x);
-  for (Edge& edge : out.odometry) edge.information = isotropic_information(4e-4, 4e-6);
-  for (std::size_t k = 0; k < metres.size(); ++k) {
-    const std::size_t from = metres.size() - 1 - k;
-    out.closures.push_back(
-        {from, steps - from, at_x(metres[k]), isotropic_information(4e-4, 4e-6)});
-  }
-  std::ranges::sort(out.closures, {}, &Edge::to);
-  return out;
-}
-
-TEST(ErrorDensity, IsThatOfTheNormalDistribution) {
-  const Vector3 error(1.0, 2.0, 2.0);
-  const Matrix3 covariance = Vector3(1.0, 4.0, 4.0).asDiagonal();
-  const ErrorDensity found = normal_density(error, covariance);
-  EXPECT_NEAR(found.squared, 3.0, 1e-12);
-  EXPECT_NEAR(found.log_density, -1.5 - 1.5 * std::log(2.0 * M_PI) - std::log(4.0), 1e-12);
-  EXPECT_FALSE(std::isfinite(normal_density(error, Matrix3(-covariance)).log_density));
-}
-
-TEST(CycleModel, AddsTheVariancesOfTheStepsOfALoop) {
-  const Problem problem = line(10, {10.3});
-  const std::vector<std::size_t> all = indices(1);
-  const ReducedChain<Se3> chain = reduced_chain<Se3>(problem, all);
-  const CycleModel<Se3> model(chain, chain.poses);
-  EXPECT_NEAR(model.rho(0)[0], 0.3, 1e-12);
-  const auto variance = [&](const LogFactors& at) {
-    return Elimination<Se3>(model, at).covariance(0)(0, 0);
-  };
-  EXPECT_NEAR(variance({}), 10 * 4e-4 + 4e-4, 1e-12);
-  EXPECT_NEAR(variance({std::log(3.0), 0.0, 0.0}), 9 * 10 * 4e-4 + 4e-4, 1e-12);
-  EXPECT_NEAR(variance({0.0, 0.0, std::log(2.0)}), 10 * 4e-4 + 4 * 4e-4, 1e-12);
-}
-
-template <class G>
-void expect_equal_densities(const Problem& problem) {
-  const std::vector<std::size_t> all = indices(problem.closures.size());
-  const ReducedChain<G> chain = reduced_chain<G>(problem, all);
-  const CycleModel<G> model(chain, chain.poses);
-  const LogFactors at{0.3, -0.4, 0.2};
-  Elimination<G> eliminated(model, at);
-  std::vector<std::size_t> order = all;
-  std::ranges::reverse(order);
-  ASSERT_TRUE(eliminated.condition_on(order));
-  EXPECT_NEAR(eliminated.log_odds(),
-              LoopLikelihood(model, all).log_odds(at),
-              1e-7 * static_cast<double>(problem.keyframes.size()));
-  // Without each loop: by elimination of all others.
-  const JointLoops<G> joint(model, at, all);
-  const std::vector<LeftOut<G>> without = joint.left_out();
-  for (const std::size_t a : all) {
-    Elimination<G> others(model, at);
-    for (const std::size_t b : all) {
-      if (b != a) ASSERT_TRUE(others.condition_on(b));
-    }
-    const double size = 1.0 + without[a].covariance.norm();
-    EXPECT_LT((others.error(a) - without[a].error).norm(), 1e-8 * size);
-    EXPECT_LT((others.covariance(a) - without[a].covariance).norm(), 1e-8 * size);
-  }
-}
-
-TEST(Elimination, HasTheDensitiesOfTheJointCovariance) {
-  expect_equal_densities<Se3>(rounds(1));
-  expect_equal_densities<Se2>(simulated_drive({.closures = 6}).problem);
-}
-
-TEST(LeftOutClosures, AreThoseOfTheChainModel) {
-  const Problem problem = line(10, {10.3, 7.9, 6.2});
-  std::vector<ScaledPose> poses;
-  for (const StampedPose& each : corrected<PoseGraphOptimizer>(problem)) {
-    poses.push_back({each.world_from_body, 1.0});
-  }
-  const auto found = left_out_closures<Se3>(poses, problem);
-  const std::vector<std::size_t> all = indices(3);
-  const ReducedChain<Se3> chain = reduced_chain<Se3>(problem, all);
-  const CycleModel<Se3> model(chain, chain.poses);
-  const JointLoops<Se3> joint(model, {}, all);
-  const std::vector<LeftOut<Se3>> expected = joint.left_out();
-  double redundancy = 0.0;
-  for (const std::size_t k : all) {
-    ASSERT_TRUE(found[k]);
-    EXPECT_NEAR(std::abs(found[k]->error[0]), std::abs(expected[k].error[0]), 1e-6);
-    EXPECT_NEAR(found[k]->covariance(0, 0), expected[k].covariance(0, 0), 1e-9);
-    redundancy += found[k]->redundancy;
-  }
-  EXPECT_GT(redundancy, 0.0);
-  EXPECT_LT(redundancy, 18.0);  // the odometry has the rest
-}
 
 /// Ends of the closures that are rejected.
 std::vector<std::pair<std::size_t, std::size_t>> rejected(const Problem& problem,
@@ -205,9 +107,9 @@ TEST(Consensus, RejectsAFamilyThatAgrees) {
 }
 
 TEST(Consensus, KeepsASingleClosureThatTheOdometryAllows) {
-  EXPECT_THAT(rejected(line(40, {40.2})), IsEmpty());
+  EXPECT_THAT(rejected(measured_line(40, {40.2})), IsEmpty());
   Report report;
-  Problem far = line(40, {2.0});
+  Problem far = measured_line(40, {2.0});
   far.closures.front().from_from_to = turned_about_z(1.0, {2.0, 3.0, 0.0});
   EXPECT_EQ(rejected(far, &report).size(), 1u);
   EXPECT_EQ(count(report, "decided"), 0.0);
@@ -216,7 +118,7 @@ TEST(Consensus, KeepsASingleClosureThatTheOdometryAllows) {
 
 TEST(Consensus, LeavesRivalsOfEqualSizeUndecided) {
   // Of one pair of keyframes, 3 m too far and 3 m too near.
-  Problem problem = line(40, {});
+  Problem problem = measured_line(40, {});
   for (const double metres : {43.0, 37.0}) {
     problem.closures.push_back({0, 40, at_x(metres), isotropic_information(1e-6, 1e-8)});
   }
