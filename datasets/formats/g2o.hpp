@@ -63,7 +63,8 @@ struct InformationRules {
 ///   discarded.
 /// - EDGE_SE3_PRIOR, EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, EDGE_SE2_XYPRIOR and EDGE_POINTXYZ measure
 ///   the position of a vertex; the covariance is the marginal one if there is a rotation.
-/// - PARAMS lines and comments are skipped; other tags are rejected.
+///   EDGE_SE3_PRIOR measures that of the sensor of the PARAMS_SE3OFFSET line that it names, if any.
+/// - Other PARAMS lines and comments are skipped; other tags are rejected.
 /// Throws InputError `file:line: what`. O(n log n) in the number of lines.
 PoseGraph read_g2o(const std::filesystem::path& file, const InformationRules& rules = {});
 PoseGraph read_g2o(TextFile& file, const InformationRules& rules);

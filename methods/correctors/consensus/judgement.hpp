@@ -80,7 +80,7 @@ struct ClosureJudgement {
   bool is_decided() const { return outcome == ConsensusOutcome::decided; }
 };
 
-/// Returns why judge_closures() does not apply, or an empty text: no closures, anchors, edges that
+/// Returns why judge_closures() does not apply, or an empty text: no closures, edges that
 /// change the scale, keyframes that are not connected, or odometry between fewer than half of them.
 std::string why_not_judged(const Problem& problem);
 
@@ -93,17 +93,19 @@ std::string why_not_judged(const Problem& problem);
 /// contradict it: it may have 10, 30 or 100 times its deviation, or unknown motion; it is freed if
 /// that is 100 times likelier than any explanation without. The best explanation is accepted if its
 /// evidence exceeds `evidence_needed`, and exceeds that of the best explanation of the other
-/// closures by as much. Where a step has no odometry, its motion is unknown.
+/// closures by as much. Where a step has no odometry, or only such that states no
+/// rotation (unknown_motion.hpp), its motion is unknown.
 ///
 /// At most a bounded number of closures, evenly chosen, take part in the search; the others are
 /// then compared with the result, so that the cost is bounded: O(keyframes + closures), with a
-/// large constant. Deterministic. Requires why_not_judged() to be empty. No reference is used.
+/// large constant. Anchors are not used. Deterministic. Requires why_not_judged() to be empty. No
+/// reference is used.
 ClosureJudgement judge_closures(const Problem& problem);
 
 /// The problem with the closures that agree, its information divided by the squared factors and
-/// that of a freed step by its inflation; the edge is left out where its motion is unknown. Steps
-/// without odometry get an edge with the keyframes' motion and a wide covariance if their parts
-/// would be unconnected otherwise.
+/// that of a freed step by its inflation; the edge is left out where its motion is unknown, and
+/// anchors always. Steps without odometry get an edge with the keyframes' motion and a wide
+/// covariance if their parts would be unconnected otherwise.
 Problem agreed_problem(const Problem& problem, const ClosureJudgement& judgement);
 
 }  // namespace loopbench::methods
