@@ -174,10 +174,20 @@ class PairDiagnosis {
       note_constant_rotation(largest_rotation_angle(poses.reference),
                              largest_rotation_angle(poses.estimate));
     }
+    if (has_rows_of_degrees(poses)) return;
     while (add(apply_best_repair(poses, out_.findings, lacks_rotations(*reference_)))) {
     }
     if (out_.findings.empty() && !agreement(poses).is_good()) add(check_shear(poses));
     check_recording(poses);
+  }
+
+  /// Metres and degrees differ by a factor of 1e5, which is otherwise taken for a scale.
+  bool has_rows_of_degrees(const Paired& poses) {
+    constexpr double kLeastFactor = 1e4;
+    const double scale = std::cbrt(similarity(poses).linear().determinant());
+    const bool is_usual = scale * kLeastFactor > 1.0 && scale < kLeastFactor;
+    return !is_usual && !agreement(poses).is_good() &&
+           add(check_rows(*reference_, *estimate_, has_stamps_));
   }
 
   /// A finding only if the other file rotates. Files of positions are meant to have no rotations.

@@ -159,19 +159,19 @@ std::optional<InputFinding> join_maps(PartedPairs& parted, const Trajectory& fil
   if (2 * kept.estimate.size() < pairs.estimate.size()) return std::nullopt;
   const double was = position_error(kept, similarity(kept)), is = position_error(found);
   if (!(is < most * was)) return std::nullopt;
-  std::vector<std::string> places;
-  std::string breaks;  // options
   bool restarts = false;
   for (std::size_t k = 1; k < found.parts.size(); ++k) {
-    const StampedPose& first = kept.estimate[found.parts[k].begin];
-    restarts |= is_origin(first.world_from_body);
-    const std::size_t row = row_at(file, first.stamp);
+    restarts |= is_origin(pose_in(kept.estimate, found.parts[k].begin));
+  }
+  if (!restarts && !(is < kMostOfDrift * error_of_other_parts(pairs, begins))) return std::nullopt;
+  std::vector<std::string> places;  // also of the parts that are too short
+  std::string breaks;               // options
+  for (std::size_t k = 0; k < std::min(begins.size(), kParts); ++k) {
+    const std::size_t row = row_at(file, pairs.estimate[begins[k]].stamp);
     if (places.size() < kListed) places.push_back(place(file, row));
     breaks += " --break " + to_text(file[row].stamp);
   }
-  if (!restarts && !(is < kMostOfDrift * error_of_other_parts(pairs, begins))) return std::nullopt;
-  if (found.parts.size() > kListed + 1)
-    places.push_back(fmt::format("{} more", found.parts.size() - 1 - kListed));
+  if (begins.size() > kListed) places.push_back(fmt::format("{} more", begins.size() - kListed));
   InputFinding out{
       Fault::new_map,
       fmt::format("the estimate {} at {}: position error with an alignment of each part {:.3g} -> "

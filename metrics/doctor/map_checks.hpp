@@ -40,7 +40,8 @@ std::optional<InputFinding> join_maps(PartedPairs& parted, const Trajectory& fil
 std::optional<InputFinding> join_scales(PartedPairs& parted, const Trajectory& file);
 
 /// Parts of the estimate that have a frame and a scale of their own, in the order of rows; all rows
-/// if there is one. Frozen rows belong to none. O(rows).
+/// if there is one. Frozen rows, and those of frames with less than ten pairs, belong to none.
+/// O(rows log(rows)).
 std::vector<RowRange> map_parts(const Trajectory& reference,
                                 const Trajectory& estimate,
                                 double offset);

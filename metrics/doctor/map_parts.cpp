@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -60,56 +61,52 @@ std::optional<InputFinding> remove_frozen(Paired& pairs,
                       last - first};
 }
 
+namespace {
+
+/// Rows around the pairs of `all` that are not in `kept`, up to the pairs that are. O(pairs).
+std::vector<RowRange> left_out(const Trajectory& all,
+                               const Trajectory& kept,
+                               const Trajectory& file) {
+  std::vector<RowRange> out;
+  bool is_kept = true;
+  std::size_t next = 0;  // of `kept`
+  for (const StampedPose& pose : all) {
+    const bool was_kept = is_kept;
+    is_kept = next < kept.size() && kept[next].stamp == pose.stamp;
+    const std::size_t row = row_at(file, pose.stamp);
+    if (!is_kept && was_kept) out.push_back({next == 0 ? 0 : row, file.size()});
+    if (is_kept && !was_kept) out.back().end = row;
+    if (is_kept) ++next;
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<RowRange> map_parts(const Trajectory& reference,
                                 const Trajectory& estimate,
                                 double offset) {
   PartedPairs parted{common_poses(reference, estimate, offset, estimate.size()), {}};
   const std::size_t n = estimate.size();
-  Paired& pairs = parted.pairs;
-  if (pairs.estimate.size() < kFewestCommonPoses) return {{0, n}};
-  std::vector<RowRange> out;
-  const Paired all = pairs;
-  remove_frozen(pairs, estimate, false);
-  std::vector<std::size_t> borders;  // rows at which a part begins
+  if (parted.pairs.estimate.size() < kFewestCommonPoses) return {{0, n}};
+  const Trajectory all = parted.pairs.estimate;
+  remove_frozen(parted.pairs, estimate, false);
+  std::vector<RowRange> between;
   if (join_maps(parted, estimate, kMostRatio) || join_scales(parted, estimate)) {
     for (std::size_t k = 1; k < parted.parts.size(); ++k) {
-      const double stamp = parted.pairs.estimate[parted.parts[k].begin].stamp;
-      borders.push_back(row_at(estimate, stamp));
+      const std::size_t row = row_at(estimate, parted.pairs.estimate[parted.parts[k].begin].stamp);
+      between.push_back({row, row});
     }
   }
-  // Frozen rows are those that are gone before the maps were joined.
-  Paired thawed = all;
-  const bool has_frozen = remove_frozen(thawed, estimate, false).has_value();
-  std::vector<RowRange> frozen;
-  for (std::size_t i = 0, j = 0; has_frozen && i < all.estimate.size(); ++i) {
-    const double stamp = all.estimate[i].stamp;
-    if (j < thawed.estimate.size() && thawed.estimate[j].stamp == stamp) {
-      ++j;
-      continue;
-    }
-    const std::size_t row = row_at(estimate, stamp);
-    if (frozen.empty() || frozen.back().end != row) frozen.push_back({row, row});
-    frozen.back().end = row + 1;
+  std::ranges::copy(left_out(all, parted.pairs.estimate, estimate), std::back_inserter(between));
+  std::ranges::sort(between, {}, &RowRange::begin);
+  between.push_back({n, n});
+  std::vector<RowRange> out;
+  std::size_t begin = 0;
+  for (const RowRange& rows : between) {
+    if (rows.begin > begin) out.push_back({begin, rows.begin});
+    begin = std::max(begin, rows.end);
   }
-  RowRange part{0, n};
-  std::size_t next_frozen = 0, next_border = 0;
-  const auto close = [&](std::size_t end, std::size_t begin) {
-    if (end > part.begin) out.push_back({part.begin, end});
-    part.begin = begin;
-  };
-  while (next_frozen < frozen.size() || next_border < borders.size()) {
-    const bool is_frozen =
-        next_border == borders.size() ||
-        (next_frozen < frozen.size() && frozen[next_frozen].begin <= borders[next_border]);
-    if (is_frozen) {
-      close(frozen[next_frozen].begin, frozen[next_frozen].end);
-      ++next_frozen;
-    } else {
-      close(std::max(part.begin, borders[next_border]), std::max(part.begin, borders[next_border]));
-      ++next_border;
-    }
-  }
-  close(n, n);
   return out;
 }
 

@@ -36,7 +36,7 @@ struct RowRepair {
   Fault::Name fault;
   const char* subject;  ///< "the rows", of a file
   std::string what;     ///< "are motions from one row to the next"
-  std::string fix;      ///< ends before the file, if it names one
+  std::string fix;      ///< ends before the file; of degrees, the names of their columns
   Trajectory (*change)(const Trajectory&);
 };
 
@@ -56,9 +56,6 @@ Trajectory in_metres_swapped(const Trajectory& file) {
 }
 
 std::vector<RowRepair> row_repairs(bool of_rows) {
-  const auto columns = [](const char* names) {
-    return std::string("write a first line 'timestamp,") + names + "' above rows with commas of ";
-  };
   std::vector<RowRepair> out;
   if (of_rows) {
     out.push_back({Fault::row_order,
@@ -75,14 +72,23 @@ std::vector<RowRepair> row_repairs(bool of_rows) {
   out.push_back({Fault::degrees,
                  "x and y",
                  "are latitude and longitude in degrees",
-                 columns("latitude,longitude,height"),
+                 "latitude,longitude,height",
                  in_metres});
   out.push_back({Fault::degrees,
                  "x and y",
                  "are longitude and latitude in degrees",
-                 columns("longitude,latitude,height"),
+                 "longitude,latitude,height",
                  in_metres_swapped});
   return out;
+}
+
+std::string fix_of(const RowRepair& repair, const Trajectory& file) {
+  if (repair.fault != Fault::degrees) return repair.fix;
+  // Without rotations, there may be columns of zeros.
+  const char* const rest = lacks_rotations(file)
+                               ? "' above rows with commas of the first four columns of "
+                               : ",qx,qy,qz,qw' above rows with commas of ";
+  return "write a first line 'timestamp," + repair.fix + rest;
 }
 
 }  // namespace
@@ -152,7 +158,7 @@ std::optional<InputFinding> check_rows(const Trajectory& reference,
                       repair.what,
                       100.0 * was,
                       100.0 * is),
-          repair.fix + (of_reference ? "REF" : "EST"),
+          fix_of(repair, file) + (of_reference ? "REF" : "EST"),
           1.0 - is / was,
           100.0 * is};
     }

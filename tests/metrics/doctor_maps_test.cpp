@@ -43,6 +43,26 @@ TEST(DoctorOfMaps, AJumpOfTheFrameIsNamedWithItsRow) {
   EXPECT_THAT(found.evidence, HasSubstr("another frame at row 400 "));
 }
 
+TEST(DoctorOfMaps, RowsOfAShortMapBelongToNoPart) {
+  const std::size_t n = sampled(20).size();
+  const Pose other{exp_so3({0.0, 0.1, 0.6}), {5.0, -2.0, 1.0}};
+  const auto moved = [&](Trajectory poses, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      poses[i].world_from_body = normalized(other * poses[i].world_from_body);
+    }
+    return poses;
+  };
+  const Trajectory jump = moved(sampled(20), 400, n);
+  const Trajectory third = moved(jump, 400, 406);
+  EXPECT_THAT(only_finding(truth(), third, Fault::new_map).evidence,
+              HasSubstr("another frame at row 400 "));
+  EXPECT_EQ(map_parts(truth(), third, 0.0), (std::vector<RowRange>{{0, 400}, {406, n}}));
+  EXPECT_EQ(map_parts(truth(), moved(jump, 0, 6), 0.0),
+            (std::vector<RowRange>{{6, 400}, {400, n}}));
+  EXPECT_EQ(map_parts(truth(), moved(jump, n - 6, n), 0.0),
+            (std::vector<RowRange>{{0, 400}, {400, n - 6}}));
+}
+
 TEST(DoctorOfMaps, AFrozenPoseIsNamedWithItsRow) {
   Trajectory estimate = sampled(20);
   for (std::size_t i = 301; i < 421; ++i) {
@@ -104,13 +124,35 @@ TEST(DoctorOfRows, MotionsFromRowToRow) {
   EXPECT_EQ(found.fix, "traj transform --chain EST");
 }
 
-TEST(DoctorOfRows, LatitudeAndLongitudeAsXAndY) {
-  Trajectory reference = truth();
-  for (auto& [t, pose] : reference) {
+/// Latitude, longitude and height as x, y, z.
+Trajectory in_degrees(Trajectory poses, double heights, bool has_rotations) {
+  for (auto& [t, pose] : poses) {
     const Vector3 p = pose.translation;
-    pose = {no_rotation(), {48.1 + p.y() / 111195.0, 11.5 + p.x() / 74260.0, 500.0 + p.z()}};
+    pose.translation = {48.1 + p.y() / 111195.0, 11.5 + p.x() / 74260.0, 500.0 + heights * p.z()};
+    if (!has_rotations) pose.rotation = no_rotation();
   }
-  only_finding(reference, sampled(20), Fault::degrees);
+  return poses;
+}
+
+TEST(DoctorOfRows, LatitudeAndLongitudeAsXAndY) {
+  const InputFinding found =
+      only_finding(in_degrees(truth(), 1.0, false), sampled(20), Fault::degrees);
+  EXPECT_EQ(found.fix,
+            "write a first line 'timestamp,latitude,longitude,height' above rows with commas of "
+            "the first four columns of REF");
+}
+
+TEST(DoctorOfRows, LatitudeAndLongitudeAtAConstantHeightAreNoScale) {
+  const Trajectory flat = each(truth(), [](const Pose& p) -> Pose {
+    return {exp_so3({0, 0, log_so3(p.rotation).z()}), {p.translation.x(), p.translation.y(), 0.0}};
+  });
+  Trajectory estimate;
+  for (std::size_t i = 100; i + 100 < flat.size(); i += 5) estimate.push_back(flat[i]);
+  only_finding(flat, in_degrees(estimate, 0.0, false), Fault::degrees);
+  const InputFinding found = only_finding(flat, in_degrees(estimate, 0.0, true), Fault::degrees);
+  EXPECT_EQ(found.fix,
+            "write a first line 'timestamp,latitude,longitude,height,qx,qy,qz,qw' above rows with "
+            "commas of EST");
 }
 
 TEST(DoctorOfRows, AnAxisOfAnotherUnit) {
