@@ -8,6 +8,7 @@
 
 #include "datasets/core/se3.hpp"
 #include "tests/support/eval_command.hpp"
+#include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::test::eval_parts_test {
@@ -77,6 +78,51 @@ TEST(EvalParts, OfAFile) {
   EXPECT_THROW(eval({truth, guess, "--parts=" + wrong}), InputError);
 }
 
+TEST(EvalParts, OfAFileAreInOrderWithoutCommonPoses) {
+  const TemporaryFolder scratch;
+  const std::string truth = scratch.file("gt.txt", run());
+  const auto why = [&](const std::string& text) {
+    const std::string parts = scratch.file("parts.txt", text);
+    return refusal_of<InputError>([&] { eval({truth, truth, "--parts=" + parts}); });
+  };
+  EXPECT_THAT(why("0 30\n20 39.95\n"), HasSubstr("parts.txt:2: the part begins with row 200"));
+  EXPECT_THAT(why("0 20\n20 39.95\n"), HasSubstr("parts.txt:2: the part begins with row 200"));
+  EXPECT_THAT(why("20\n0\n"), HasSubstr("parts.txt:2: the part begins at 0 s"));
+  EXPECT_THAT(why("0 20\n50 60\n"), HasSubstr("parts.txt:2: part 2 has no poses"));
+}
+
+/// Along each axis, 0.01 m to either side.
+std::string noisy_run() {
+  std::string out;
+  for (int i = 0; i < 400; ++i) {
+    Pose pose = on_path(0.1 * i);
+    for (int k = 0; k < 3; ++k) pose.translation[k] += 0.01 * std::sin(1e3 * i + 1e2 * k);
+    out += row(0.1 * i, pose);
+  }
+  return out;
+}
+
+TEST(EvalParts, DegreesOfFreedomAreThoseOfTheProtocol) {
+  const TemporaryFolder scratch;
+  const std::string truth = scratch.file("gt.txt", run());
+  const std::string guess = scratch.file("est.txt", noisy_run());
+  const std::string parts = scratch.file("parts.txt", "0\n");  // all poses
+  for (const char* const ddof : {"--set=ddof=0", "--set=ddof=1"}) {
+    const Json all = eval_json({truth, guess, "--parts=" + parts, ddof});
+    const double part = find(all[0], "ate", "translation")["std"];
+    EXPECT_NEAR(find(all[1], "ate", "translation")["std"], part, 1e-6 * part) << ddof;
+  }
+}
+
+TEST(EvalParts, WhyAPartFailedNamesNoOtherFiles) {
+  const TemporaryFolder scratch;
+  const std::string truth = scratch.file("gt.txt", run());
+  const std::string parts = scratch.file("parts.txt", "0 0.05\n1 39.95\n");
+  const std::string out = eval({truth, truth, "--parts=" + parts, "--full"}, kExitSomeCellsFailed);
+  EXPECT_THAT(out, HasSubstr("coincide"));
+  EXPECT_THAT(out, testing::Not(HasSubstr("reference reference")));
+}
+
 TEST(EvalParts, AreWrittenBySplit) {
   const TemporaryFolder scratch;
   const std::string truth = scratch.file("gt.txt", run());
@@ -102,6 +148,24 @@ TEST(EvalParts, ALoopNeedsNoReferenceForTheErrorAtItsEnd) {
   EXPECT_NEAR(found["rotation_deg"], 0.0, 1e-5);
   EXPECT_NEAR(found["share_percent"], 100.0 * 0.5 / 62.83, 0.001);
   EXPECT_THROW(eval({file}), InputError);
+  for (const char* const ignored : {"--plot=a.pdf",
+                                    "--report=a.html",
+                                    "--store=st",
+                                    "--csv",
+                                    "--per-pose=a.csv",
+                                    "--start=1",
+                                    "--end=5",
+                                    "--parts=auto",
+                                    "--metric=ate",
+                                    "--align=sim3",
+                                    "--unit=mm"}) {
+    const std::string option = std::string(ignored).substr(0, std::string(ignored).find('='));
+    const bool is_field = option == "--align";
+    EXPECT_THAT(refusal_of<InputError>([&] {
+                  eval({file, "--end-error", ignored});
+                }),
+                HasSubstr("no " + (is_field ? "field of the protocol" : option)));
+  }
 }
 
 TEST(EvalParts, RowsThatAreMotionsAreChained) {

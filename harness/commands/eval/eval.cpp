@@ -136,7 +136,34 @@ std::string printed(const EvalArguments& a, const Evaluations& all) {
   return a.csv ? csv(all.records) : printable(result_text(a, all));
 }
 
+/// Throws InputError for options without effect on errors at the end.
+void check_end_error(const EvalArguments& a) {
+  const std::pair<bool, const char*> ignored[] = {
+      {!a.plot.empty(), "--plot"},
+      {!a.report.empty(), "--report"},
+      {!a.store.empty(), "--store"},
+      {a.csv, "--csv"},
+      {!a.per_pose.empty(), "--per-pose"},
+      {a.start.has_value(), "--start"},
+      {a.end.has_value(), "--end"},
+      {a.downsample.has_value(), "--downsample"},
+      {!a.motion_filter.empty(), "--motion_filter"},
+      {!a.parts.empty(), "--parts"},
+      {!a.metrics.empty(), "--metric"},
+      {!a.relation.empty(), "--pose_relation"},
+      {!a.settings.empty(), "field of the protocol"},
+      {a.correct_scale, "--correct_scale"},
+      {!a.unit.empty(), "--unit"},
+  };
+  for (const auto& [is_given, what] : ignored) {
+    if (is_given)
+      throw InputError(
+          fmt::format("--end-error: expected no {}, which would have no effect", what));
+  }
+}
+
 int print_end_errors(const EvalArguments& a) {
+  check_end_error(a);
   std::vector<std::string> files{a.reference};
   files.insert(files.end(), a.estimates.begin(), a.estimates.end());
   write_file(a.out, printable(end_errors(files, a, a.json)));

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <string_view>
 
 #include "datasets/columns/columns.hpp"
 #include "datasets/columns/text_file.hpp"
@@ -35,6 +36,7 @@ std::vector<std::size_t> indices_of(const RowRange& rows) {
 std::vector<RowRange> parts_of_file(const std::string& name, const Trajectory& poses) {
   TextFile file(name);
   std::vector<std::pair<double, double>> ranges;
+  std::vector<std::size_t> lines;
   for (Line line; file.next(line);) {
     Columns columns(file, line);
     const double first = columns.number("first stamp");
@@ -43,7 +45,15 @@ std::vector<RowRange> parts_of_file(const std::string& name, const Trajectory& p
     if (!columns.done()) {
       throw file.error(line.number, "expected the first stamp of a part, or its first and last");
     }
+    if (!ranges.empty() && !(first > ranges.back().first)) {
+      throw file.error(line.number,
+                       fmt::format("the part begins at {:g} s, the one before it at {:g} s; "
+                                   "expected parts in the order of time",
+                                   first,
+                                   ranges.back().first));
+    }
     ranges.emplace_back(first, last);
+    lines.push_back(line.number);
   }
   if (ranges.empty()) throw file.error(0, "has no parts, expected one per line");
   std::vector<RowRange> out;
@@ -54,16 +64,23 @@ std::vector<RowRange> parts_of_file(const std::string& name, const Trajectory& p
       last = is_last ? poses.back().stamp
                      : std::nextafter(ranges[i + 1].first, -std::numeric_limits<double>::max());
     }
-    out.push_back(rows_between(poses, first, last));
-    if (out.back().begin == out.back().end) {
-      throw file.error(0, fmt::format("part {} has no poses of the estimate", i + 1));
+    const RowRange rows = rows_between(poses, first, last);
+    if (rows.begin == rows.end) {
+      throw file.error(lines[i], fmt::format("part {} has no poses of the estimate", i + 1));
     }
+    if (!out.empty() && rows.begin < out.back().end) {
+      throw file.error(lines[i],
+                       fmt::format("the part begins with row {} of the estimate, which is also in "
+                                   "the part before it; expected parts without common poses",
+                                   rows.begin));
+    }
+    out.push_back(rows);
   }
   return out;
 }
 
 /// Statistics of the errors of all parts; NaN for those that do not follow from the parts'.
-metrics::Statistics pooled(const std::vector<metrics::Statistics>& parts) {
+metrics::Statistics pooled(const std::vector<metrics::Statistics>& parts, int ddof) {
   metrics::Statistics out;
   out.min = std::numeric_limits<double>::infinity();
   for (const metrics::Statistics& part : parts) {
@@ -76,7 +93,8 @@ metrics::Statistics pooled(const std::vector<metrics::Statistics>& parts) {
   const auto count = static_cast<double>(out.count);
   out.mean /= count;
   out.rmse = std::sqrt(out.sse / count);
-  out.std = std::sqrt(std::max(0.0, out.sse / count - out.mean * out.mean));
+  const double squares = std::max(0.0, out.sse - count * out.mean * out.mean);
+  out.std = count > ddof ? std::sqrt(squares / (count - ddof)) : 0.0;
   for (double metrics::Statistics::*member : {&metrics::Statistics::median,
                                               &metrics::Statistics::p90,
                                               &metrics::Statistics::p95,
@@ -132,7 +150,7 @@ EvaluationResult over_parts(const std::vector<EvaluationResult>& parts,
     if (own.empty()) continue;
     record.status = Status::ok;
     record.why = {};
-    record.statistics = pooled(own);
+    record.statistics = pooled(own, out.protocol.rules.ddof);
   }
   return out;
 }
@@ -144,11 +162,14 @@ Evaluations evaluated_part(const EvalArguments& a,
   try {
     return evaluate_in_memory(a, reference, part);
   } catch (const InputError& error) {
+    constexpr std::string_view kNames = "estimate with reference reference: ";  // of no file
+    std::string why = error.what();
+    if (why.starts_with(kNames)) why.erase(0, kNames.size());
     Evaluations out;
     for (const metrics::NamedProtocol& protocol : protocols(a)) {
       EvaluationResult& own = out.results.emplace_back();
       own.protocol = protocol;
-      own.why_failed = error.what();
+      own.why_failed = why;
     }
     return out;
   }

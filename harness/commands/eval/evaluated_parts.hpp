@@ -11,7 +11,8 @@
 namespace loopbench::harness {
 
 /// The parts of `poses`: of `auto` those of metrics::map_parts(); otherwise those of a file with
-/// one part per line, its first stamp, or its first and last stamp [s]. Throws InputError.
+/// one part per line, its first stamp, or its first and last stamp [s], in the order of time and
+/// without common poses. Throws InputError.
 std::vector<metrics::RowRange> parts_of(const std::string& rule,
                                         const Trajectory& reference,
                                         const Trajectory& poses,
