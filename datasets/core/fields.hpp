@@ -31,6 +31,7 @@ struct Between {
   double high = std::numeric_limits<double>::infinity();
 
   bool holds(double value) const { return low <= value && value <= high; }
+  OptionRange range() const { return {low, high}; }
   std::string text(const std::string& name) const {
     const std::string upper = std::isinf(high) ? "" : " <= " + number(high);
     return number(low) + " <= " + name + upper;
@@ -49,6 +50,7 @@ struct GreaterThan {
   double low;
 
   bool holds(double value) const { return value > low && std::isfinite(value); }
+  OptionRange range() const { return {.low = low, .is_open = true}; }
   std::string text(const std::string& name) const {
     std::ostringstream out;
     out << name << " > " << low;
@@ -70,12 +72,19 @@ std::string to_text(E value) {
   throw std::logic_error("enum value without a name");
 }
 
-/// All names of an enum, for example "none | slerp".
+/// All names of an enum.
+template <NamedEnum E>
+std::vector<std::string> choice_names(E any = {}) {
+  std::vector<std::string> out;
+  for (const auto& [name, choice] : choices(any)) out.emplace_back(name);
+  return out;
+}
+
+/// The same as a text, for example "none | slerp".
 template <NamedEnum E>
 std::string choice_list(E any = {}) {
   std::string out;
-  for (const auto& [name, choice] : choices(any))
-    out += (out.empty() ? "" : " | ") + std::string(name);
+  for (const std::string& name : choice_names(any)) out += (out.empty() ? "" : " | ") + name;
   return out;
 }
 
@@ -103,13 +112,16 @@ struct FieldType {
   }
 
   static void assign(const std::string& name, T& member, const Param& given) {
-    const auto mismatch = [&](const std::string& expected) {
-      return OptionError(name, name + " = " + to_text(given) + ": expected " + expected);
+    const auto mismatch = [&](const std::string& expected, UnknownWord unknown = {}) {
+      return OptionError(
+          name, name + " = " + to_text(given) + ": expected " + expected, std::move(unknown));
     };
     if constexpr (NamedEnum<T>) {
       const std::string* word = std::get_if<std::string>(&given);
       const auto value = word ? from_text<T>(*word) : std::nullopt;
-      if (!value) throw mismatch("one of " + choice_list<T>());
+      if (!value) {
+        throw mismatch("one of " + choice_list<T>(), {to_text(given), choice_names<T>()});
+      }
       member = *value;
     } else if constexpr (std::same_as<T, bool>) {
       const bool* flag = std::get_if<bool>(&given);
@@ -176,6 +188,8 @@ std::vector<OptionInfo> describe(Options options) {
     const bool is_text = std::same_as<Member, std::string> || NamedEnum<Member>;
     const bool is_optional = std::same_as<Member, std::optional<double>>;
     out.push_back({name, FieldType<Member>::to_param(member), help, text, is_text, is_optional});
+    if constexpr (NamedEnum<Member>) out.back().words = choice_names<Member>();
+    ((out.back().range = rule.range()), ...);
   });
   return out;
 }
@@ -192,10 +206,10 @@ Params echo(Options options) {
 /// wrong type or a value outside its range.
 template <class Options>
 Options with(Options options, Params given) {
-  std::string known;
+  std::vector<std::string> known;
   fields(options, [&](const char* name, auto& member, const char*, const auto&... rule) {
     using Member = std::remove_cvref_t<decltype(member)>;
-    known += (known.empty() ? "" : ", ") + std::string(name);
+    known.emplace_back(name);
     if (const auto found = given.find(name); found != given.end()) {
       FieldType<Member>::assign(name, member, found->second);
       given.erase(found);
@@ -204,8 +218,10 @@ Options with(Options options, Params given) {
   });
   if (given.empty()) return options;
   const std::string& name = given.begin()->first;
-  throw OptionError(name,
-                    name + ": unknown option (has: " + (known.empty() ? "none" : known) + ")");
+  std::string all;
+  for (const std::string& each : known) all += (all.empty() ? "" : ", ") + each;
+  const std::string listing = " (has: " + (all.empty() ? "none" : all) + ")";
+  throw OptionError(name, name + ": unknown option", {name, std::move(known), listing});
 }
 
 /// Options of methods, datasets and metrics that have none.

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,13 @@ namespace loopbench {
 using Param = std::variant<bool, std::int64_t, double, std::string>;
 using Params = std::map<std::string, Param>;
 
+/// Bounds of a number; infinite without.
+struct OptionRange {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool is_open = false;  ///< without `low` itself
+};
+
 /// Description of one option, as printed by `list`.
 struct OptionInfo {
   std::string name;
@@ -23,19 +31,35 @@ struct OptionInfo {
   std::string rule;          ///< "0 <= share <= 1", "none | slerp", or empty
   bool is_text = false;      ///< holds text or one of a list of words, whatever its default
   bool is_optional = false;  ///< a number that can also be `none`
+  OptionRange range = {};    ///< of a number, as in `rule`
+  std::vector<std::string> words = {};  ///< those of `rule`; none: any text
+};
+
+/// A word where one of a list was expected.
+struct UnknownWord {
+  std::string word;
+  std::vector<std::string> known;
+  std::string listing = {};  ///< end of the message, a list of options; empty for a value
 };
 
 /// Invalid option: unknown name, wrong type, or value outside its range.
 class OptionError : public std::invalid_argument {
  public:
-  OptionError(std::string option, const std::string& message)
-      : std::invalid_argument(message), option_(std::move(option)) {}
+  /// The message ends with the listing of `unknown`.
+  OptionError(std::string option, const std::string& message, UnknownWord unknown = {})
+      : std::invalid_argument(message + unknown.listing),
+        option_(std::move(option)),
+        unknown_(std::move(unknown)) {}
 
   /// The option name as given, used to find its line in a config.
   const std::string& option() const { return option_; }
 
+  /// Without a word if no word is the error.
+  const UnknownWord& unknown() const { return unknown_; }
+
  private:
   std::string option_;
+  UnknownWord unknown_;
 };
 
 /// Shortest text that parses to the same double; 1 is printed as "1.0" to preserve the type.

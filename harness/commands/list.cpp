@@ -4,10 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
@@ -88,30 +87,11 @@ std::string unit_in(const std::string& help) {
   return is_one ? help.substr(begin + 1, end - begin - 1) : "";
 }
 
-/// Adds "0 <= share <= 1", "order >= ..." and "step > 0", separated by commas, as bounds, or the
-/// words of "none | slerp".
 void add_rule(Json& out, const OptionInfo& option) {
-  if (option.is_text && !option.rule.empty()) {
-    std::istringstream words(option.rule);
-    for (std::string word; words >> word;) {
-      if (word != "|") out["choices"].push_back(word);
-    }
-    return;
-  }
-  const std::string above = option.name + " > ";
-  const std::string from = " <= " + option.name;
-  for (std::size_t begin = 0; begin < option.rule.size();) {
-    const std::size_t end = std::min(option.rule.find(", ", begin), option.rule.size());
-    const std::string rule = option.rule.substr(begin, end - begin);
-    begin = end + 2;
-    const auto number = [&](std::size_t at) { return std::strtod(rule.c_str() + at, nullptr); };
-    const std::size_t name = rule.find(from);
-    if (rule.starts_with(above)) out["exclusive_minimum"] = number(above.size());
-    if (name == std::string::npos) continue;
-    out["minimum"] = number(0);
-    const std::size_t most = rule.find(" <= ", name + from.size());
-    if (most != std::string::npos) out["maximum"] = number(most + 4);
-  }
+  if (!option.words.empty()) out["choices"] = option.words;
+  const auto& [low, high, is_open] = option.range;
+  if (std::isfinite(low)) out[is_open ? "exclusive_minimum" : "minimum"] = low;
+  if (std::isfinite(high)) out["maximum"] = high;
 }
 
 Json to_json(const OptionInfo& option) {

@@ -68,6 +68,11 @@ TEST(Fields, DescribeKeepsTheDeclaredOrderAndTheRules) {
   EXPECT_EQ(options[4].rule, "none | slerp");
   EXPECT_EQ(options[5].rule, "band > 0");
   EXPECT_EQ(options[0].help, "part of the gap [-]");
+  EXPECT_EQ(options[0].range.high, 1.0);
+  EXPECT_TRUE(std::isinf(options[1].range.high));
+  EXPECT_EQ(options[4].words, (std::vector<std::string>{"none", "slerp"}));
+  EXPECT_EQ(options[5].range.low, 0.0);
+  EXPECT_TRUE(options[5].range.is_open);
 }
 
 TEST(Fields, WithReplacesOnlyWhatIsGiven) {

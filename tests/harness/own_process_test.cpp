@@ -48,11 +48,14 @@ TEST(OwnProcess, ExceptionsKeepTheirTypeAndMessage) {
   EXPECT_THROW(in_own_process([]() -> std::string { throw InputError("file:3: why"); }),
                InputError);
   try {
-    in_own_process([]() -> std::string { throw OptionError("share", "share: too large"); });
+    in_own_process([]() -> std::string {
+      throw OptionError("shere", "shere: unknown", {"shere", {"share"}, " (has: share)"});
+    });
     FAIL() << "did not throw";
   } catch (const OptionError& error) {
-    EXPECT_EQ(error.option(), "share");
-    EXPECT_STREQ(error.what(), "share: too large");
+    EXPECT_EQ(error.option(), "shere");
+    EXPECT_STREQ(error.what(), "shere: unknown (has: share)");
+    EXPECT_EQ(error.unknown().known, std::vector<std::string>{"share"});
   }
   EXPECT_THROW(in_own_process([]() -> std::string { throw 3; }), std::runtime_error);
 }

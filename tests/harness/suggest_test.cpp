@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "metrics/protocols/protocol.hpp"
+
 namespace loopbench::suggest_test {
 
 using namespace harness;
+using metrics::Protocol;
+using Text = std::string;
 
 namespace {
 
@@ -30,18 +34,27 @@ TEST(Suggest, DoesNotGuessWildly) {
             "no method is named 'unifrom'; did you mean 'uniform'?");
 }
 
-TEST(Suggest, NamesTheClosestOptionOrWordOfAMessage) {
-  const auto guessed = [](const std::string& option, const std::string& why) {
-    return with_guess(OptionError(option, why));
+TEST(Suggest, NamesTheClosestOptionOrWordThatWasExpected) {
+  const auto guessed = [](const Params& given, const std::vector<std::string>& further = {}) {
+    try {
+      with(Protocol{}, given);
+    } catch (const OptionError& error) {
+      return with_guess(error, further);
+    }
+    return std::string();
   };
-  EXPECT_EQ(guessed("bais", "bais: unknown option (has: seed, bias)"),
-            "bais: unknown option; did you mean 'bias'? (has: seed, bias)");
-  EXPECT_EQ(guessed("align", "align = simm3: expected one of se3 | sim3 | none"),
-            "align = simm3: expected one of se3 | sim3 | none; did you mean 'sim3'?");
-  for (const std::string why :
-       {"align = 7: expected one of se3 | sim3", "bias = 2: expected 0 <= bias <= 1"}) {
-    EXPECT_EQ(guessed(why.substr(0, why.find(' ')), why), why);
-  }
+  EXPECT_EQ(guessed({{"algin", Text("se3")}}).substr(0, 49),
+            "algin: unknown option; did you mean 'align'? (has");
+  EXPECT_EQ(guessed({{"lable", Text("a")}}, {"label"}).substr(0, 49),
+            "lable: unknown option; did you mean 'label'? (has");
+  EXPECT_EQ(guessed({{"align", Text("simm3")}}, {"simm"}),
+            "align = simm3: expected one of se3 | sim3 | scale | posyaw | origin | posyaw_origin | "
+            "none; did you mean "
+            "'sim3'?");
+  EXPECT_EQ(
+      guessed({{"align", std::int64_t{7}}}),
+      "align = 7: expected one of se3 | sim3 | scale | posyaw | origin | posyaw_origin | none");
+  EXPECT_EQ(guessed({{"max_diff", -1.0}}), "max_diff = -1.0: expected 0 <= max_diff");
 }
 
 }  // namespace

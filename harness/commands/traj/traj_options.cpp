@@ -1,5 +1,8 @@
 #include "harness/commands/traj/traj_options.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -177,10 +180,14 @@ Format written_format(const std::string& out, const std::string& to) {
         out +
         ": expected a file name that ends in .txt, .tum, .csv, .g2o or .kitti, or --to FORMAT");
   }
+  std::vector<std::string> known;
   for (const auto& [name, format] : choices(Format{})) {
-    if (can_write(format) && name == to) return format;
+    if (!can_write(format)) continue;
+    if (name == to) return format;
+    known.emplace_back(name);
   }
-  throw OptionError("to", "to = " + to + ": expected one of tum | kitti | euroc | g2o | csv");
+  throw OptionError(
+      "to", fmt::format("to = {}: expected one of {}", to, fmt::join(known, " | ")), {to, known});
 }
 
 void declare_traj(CLI::App& traj, const std::map<std::string, TrajVerb>& verbs, int& exit_code) {

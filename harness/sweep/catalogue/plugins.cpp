@@ -27,9 +27,15 @@ void walk(Archive& a, T& value) {
   std::visit([&](auto& held) { a(held); }, value);
 }
 
+template <class Archive, Either<OptionRange> T>
+void walk(Archive& a, T& range) {
+  a(range.low)(range.high)(range.is_open);
+}
+
 template <class Archive, Either<OptionInfo> T>
 void walk(Archive& a, T& option) {
-  a(option.name)(option.value)(option.help)(option.rule)(option.is_text)(option.is_optional);
+  a(option.name)(option.value)(option.help)(option.rule)(option.is_text)(option.is_optional)(
+      option.range)(option.words);
 }
 
 }  // namespace loopbench

@@ -16,6 +16,15 @@
 #include "harness/sweep/process/result_area.hpp"
 #include "harness/sweep/process/system_file.hpp"
 
+namespace loopbench {
+
+template <class Archive, Either<UnknownWord> T>
+void walk(Archive& a, T& unknown) {
+  a(unknown.word)(unknown.known)(unknown.listing);
+}
+
+}  // namespace loopbench
+
 namespace loopbench::harness {
 namespace {
 
@@ -33,19 +42,22 @@ enum class AnswerKind {
 struct ChildAnswer {
   AnswerKind kind = AnswerKind::returned;
   std::string option;
-  std::string text;
+  std::string text;  ///< of an OptionError, without its listing
+  UnknownWord unknown = {};
 };
 
 template <class Archive, Either<ChildAnswer> T>
 void walk(Archive& a, T& answer) {
-  a(answer.kind)(answer.option)(answer.text);
+  a(answer.kind)(answer.option)(answer.text)(answer.unknown);
 }
 
 ChildAnswer answer_of(const std::function<std::string()>& work) {
   try {
     return {AnswerKind::returned, "", work()};
   } catch (const OptionError& error) {
-    return {AnswerKind::option_error, error.option(), error.what()};
+    std::string text = error.what();
+    text.resize(text.size() - error.unknown().listing.size());
+    return {AnswerKind::option_error, error.option(), text, error.unknown()};
   } catch (const InputError& error) {
     return {AnswerKind::input_error, "", error.what()};
   } catch (const MissingPart& error) {
@@ -96,7 +108,7 @@ std::string in_own_process(const std::function<std::string()>& work, const Proce
     case AnswerKind::returned:
       return answer.text;
     case AnswerKind::option_error:
-      throw OptionError(answer.option, answer.text);
+      throw OptionError(answer.option, answer.text, answer.unknown);
     case AnswerKind::input_error:
       throw InputError(answer.text);
     case AnswerKind::missing_part:

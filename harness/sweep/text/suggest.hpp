@@ -15,8 +15,8 @@ std::string unknown_name(const std::string& kind,
                          const std::string& given,
                          const std::vector<std::string>& known);
 
-/// The message, with the closest of the options or words that it lists, or of further names that
-/// can take the place of an option ("did you mean 'y'?").
+/// The message, with the closest of the words that were expected, or of further names that can take
+/// the place of an option ("did you mean 'y'?").
 std::string with_guess(const OptionError& error, const std::vector<std::string>& further = {});
 
 }  // namespace loopbench::harness

@@ -27,6 +27,7 @@ struct ZeroOr {
   int low, high;
 
   bool holds(double value) const { return value == 0.0 || (low <= value && value <= high); }
+  OptionRange range() const { return {0.0, static_cast<double>(high)}; }
   std::string text(const std::string& name) const {
     return name + " = 0 or " + std::to_string(low) + " <= " + name + " <= " + std::to_string(high);
   }
