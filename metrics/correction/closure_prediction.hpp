@@ -30,7 +30,7 @@ inline double closure_distance(const Edge& closure, const Trajectory& poses) {
 }
 
 /// Throws Undefined if the keyframes are not the poses of the odometry. O(edges).
-inline void require_open_chain(const Problem& problem, const std::string& name) {
+inline void require_open_chain(const Problem& problem) {
   double length = 0.0, difference = 0.0;
   for (const Edge& edge : problem.odometry) {
     length += edge.from_from_to.translation.norm();
@@ -38,7 +38,7 @@ inline void require_open_chain(const Problem& problem, const std::string& name) 
   }
   constexpr double kRounding = 1e-3;  // of the path, by the digits of a file
   if (difference <= kRounding * length) return;
-  throw Undefined(name + ": the keyframes are not the poses of the odometry");
+  throw Undefined("the keyframes are not the poses of the odometry");
 }
 
 /// `ratio` [1]: the method runs without the closures of one place (closure_places.hpp); their error
@@ -51,16 +51,15 @@ inline void require_open_chain(const Problem& problem, const std::string& name) 
 /// closures. One run of the method per place.
 inline std::vector<Score> closure_prediction(const Evaluation& evaluation,
                                              const ClosurePredictionOptions& options) {
-  const std::string name = "closure_prediction";
-  const Problem& problem = needed(evaluation.context.problem, name, "loop closures");
+  const Problem& problem = needed(evaluation.context.problem, "loop closures");
   const SolveWithout& solve_without =
-      needed(evaluation.context.solve_without, name, "a method that can run again");
+      needed(evaluation.context.solve_without, "a method that can run again");
   const std::vector<std::vector<std::size_t>> all = closure_places(problem.closures);
   if (all.size() < 2) {
-    throw Undefined(name + ": needs closures at two places, found " + std::to_string(all.size()));
+    throw Undefined("needs closures at two places, found " + std::to_string(all.size()));
   }
-  for (const auto* edges : {&problem.odometry, &problem.closures}) require_rigid(*edges, name);
-  require_open_chain(problem, name);
+  for (const auto* edges : {&problem.odometry, &problem.closures}) require_rigid(*edges);
+  require_open_chain(problem);
   const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.max_places));
   std::vector<std::vector<std::size_t>> places;
   std::vector<double> predicted(problem.closures.size(), 0.0);

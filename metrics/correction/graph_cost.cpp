@@ -45,19 +45,19 @@ Pose edge_difference(const Edge& edge, const Trajectory& poses) {
   return normalized(edge.from_from_to.inverse() * from_from_to);
 }
 
-void require_rigid(const std::vector<Edge>& edges, const std::string& name) {
+void require_rigid(const std::vector<Edge>& edges) {
   for (const Edge& edge : edges) {
     if (edge.scale == 1.0) continue;
-    throw Undefined(name + ": an edge changes the scale (factor " + to_text(edge.scale) +
+    throw Undefined("an edge changes the scale (factor " + to_text(edge.scale) +
                     "), but the keyframes are rigid");
   }
 }
 
 std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptions& options) {
-  const Problem& problem = needed(evaluation.context.problem, "graph_cost", "edges");
-  const Trajectory& poses = needed(evaluation.context.estimate, "graph_cost", "keyframes");
+  const Problem& problem = needed(evaluation.context.problem, "edges");
+  const Trajectory& poses = needed(evaluation.context.estimate, "keyframes");
   const auto sum = [&](const std::vector<Edge>& edges) {
-    require_rigid(edges, "graph_cost");
+    require_rigid(edges);
     double out = 0.0;
     for (const Edge& edge : edges) out += cost_of(edge, poses, problem.planar, options.error);
     return out;
@@ -76,12 +76,12 @@ std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptio
 }
 
 std::vector<Score> closure_residual(const Evaluation& evaluation) {
-  const Problem& problem = needed(evaluation.context.problem, "closure_residual", "loop closures");
-  const Trajectory& poses = needed(evaluation.context.estimate, "closure_residual", "keyframes");
+  const Problem& problem = needed(evaluation.context.problem, "loop closures");
+  const Trajectory& poses = needed(evaluation.context.estimate, "keyframes");
   if (problem.closures.empty()) {
-    throw Undefined("closure_residual: needs loop closures; the sequence has none");
+    throw Undefined("needs loop closures; the sequence has none");
   }
-  require_rigid(problem.closures, "closure_residual");
+  require_rigid(problem.closures);
   std::vector<double> metres, degrees, mahalanobis;
   for (const Edge& edge : problem.closures) {
     const Pose E = edge_difference(edge, poses);

@@ -30,9 +30,9 @@ void fields(GraphCostOptions& o, Visit visit) {
 /// Returns Z^-1 X_from^-1 X_to of an edge Z at poses X.
 Pose edge_difference(const Edge& edge, const Trajectory& poses);
 
-/// Throws Undefined, with the name of a metric, if an edge changes the scale: rigid keyframes do
-/// not define its residual. O(edges).
-void require_rigid(const std::vector<Edge>& edges, const std::string& name);
+/// Throws Undefined if an edge changes the scale: rigid keyframes do not define its residual.
+/// O(edges).
+void require_rigid(const std::vector<Edge>& edges);
 
 /// Sums over edges, without the factor 1/2 of GTSAM and Ceres: chi2 of all edges and anchors, of
 /// odometry, of closures, and of anchors if there are any [1]. For chordal, weights as in

@@ -79,10 +79,8 @@ inline void add_run(Floor& floor,
 inline std::vector<Score> interpolation_floor(const Evaluation& evaluation,
                                               const InterpolationFloorOptions& options) {
   const Context& context = evaluation.context;
-  const Trajectory& reference =
-      needed(context.reference, "interpolation_floor", "the complete reference");
-  std::vector<double> keyframe_stamps =
-      stamps(needed(context.estimate, "interpolation_floor", "the complete estimate"));
+  const Trajectory& reference = needed(context.reference, "the complete reference");
+  std::vector<double> keyframe_stamps = stamps(needed(context.estimate, "the complete estimate"));
   for (double& stamp : keyframe_stamps) stamp += context.protocol.offset;
 
   Floor floor;
@@ -91,7 +89,7 @@ inline std::vector<Score> interpolation_floor(const Evaluation& evaluation,
     add_run(floor, nodes, reference, next);
   }
   if (!floor.has_between) {
-    throw Undefined("interpolation_floor: the reference has no pose between keyframes");
+    throw Undefined("the reference has no pose between keyframes");
   }
   const int ddof = evaluation.protocol.ddof;
   Score slerp{"slerp", "3d", "deg", {}, why_no_attitude(evaluation)};

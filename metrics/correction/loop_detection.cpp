@@ -140,17 +140,15 @@ std::string to_text(const Detection& d) {
 
 std::vector<Score> loop_detection(const Evaluation& evaluation, const DetectionRule& rule) {
   const Context& context = evaluation.context;
-  const std::string name = "loop_detection";
-  const auto& candidates = needed(context.loop_candidates, name, "loop candidates");
+  const auto& candidates = needed(context.loop_candidates, "loop candidates");
   if (candidates.empty()) {
-    throw Undefined(name +
-                    ": no loop candidates; only image sequences with place recognition have them");
+    throw Undefined("no loop candidates; only image sequences with place recognition have them");
   }
-  const Trajectory& reference = needed(context.reference, name, "a reference");
-  if (reference.empty()) throw Undefined(name + ": needs a reference");
+  const Trajectory& reference = needed(context.reference, "a reference");
+  if (reference.empty()) throw Undefined("needs a reference");
   const Detection d =
-      evaluate_detection(needed(context.problem, name, "keyframes"), reference, candidates, rule);
-  if (d.revisits == 0) throw Undefined(name + ": the reference revisits no place");
+      evaluate_detection(needed(context.problem, "keyframes"), reference, candidates, rule);
+  if (d.revisits == 0) throw Undefined("the reference revisits no place");
   const auto whole = [](const char* what, std::size_t count) {
     return directed(single(what, "", "1", static_cast<double>(count)), Better::neither);
   };

@@ -79,7 +79,7 @@ Certificate certificate_in(const Problem& problem, const Trajectory& keyframes) 
   Certificate out;
   out.cost = M.times(start).cost;
   if (!std::isfinite(out.cost)) {
-    throw std::runtime_error("optimality: the cost of the estimate is not finite");
+    throw std::runtime_error("the cost of the estimate is not finite");
   }
   const auto X = chordal_minimum<D>(M, start);
   const auto [XM, minimum] = M.times(X);
@@ -114,20 +114,20 @@ Certificate certificate_in(const Problem& problem, const Trajectory& keyframes) 
 
 Certificate certificate(const Problem& problem, const Trajectory& keyframes) {
   if (keyframes.empty() || keyframes.size() != problem.keyframes.size()) {
-    throw std::runtime_error("optimality: expected one pose per keyframe");
+    throw std::runtime_error("expected one pose per keyframe");
   }
   return problem.planar ? certificate_in<2>(problem, keyframes)
                         : certificate_in<3>(problem, keyframes);
 }
 
 std::vector<Score> optimality(const Evaluation& evaluation, const NoOptions&) {
-  const Problem& problem = needed(evaluation.context.problem, "optimality", "edges");
-  const Trajectory& poses = needed(evaluation.context.estimate, "optimality", "keyframes");
+  const Problem& problem = needed(evaluation.context.problem, "edges");
+  const Trajectory& poses = needed(evaluation.context.estimate, "keyframes");
   for (const auto* edges : {&problem.odometry, &problem.closures}) {
-    require_rigid(*edges, "optimality");
+    require_rigid(*edges);
   }
   if (!problem.anchors.empty()) {
-    throw Undefined("optimality: the problem has anchors, the certificate is for edges");
+    throw Undefined("the problem has anchors, the certificate is for edges");
   }
   const Certificate proof = certificate(problem, poses);
   const auto gap = [&](double cost) {

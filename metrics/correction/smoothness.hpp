@@ -61,7 +61,7 @@ inline std::vector<double> grid(const Curve& curve,
   const double begin = std::max(curve.start(), reference.front().stamp - offset);
   const double end = std::min(curve.end(), reference.back().stamp - offset);
   if (!((end - begin) * rate < kMostSamples)) {
-    throw std::runtime_error("jerk: rate = " + to_text(rate) + " needs more than 1e8 samples");
+    throw std::runtime_error("rate = " + to_text(rate) + " needs more than 1e8 samples");
   }
   std::vector<double> out;
   for (double k = 0.0; begin + k / rate <= end; ++k) out.push_back(begin + k / rate);
@@ -87,8 +87,8 @@ inline double jerk_of(const StampedPose* samples) {
 /// four common samples. O(n + span * rate).
 inline std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& options) {
   const Context& context = evaluation.context;
-  const Curve& curve = needed(context.curve, "jerk", "a curve");
-  const Trajectory& reference = needed(context.reference, "jerk", "the complete reference");
+  const Curve& curve = needed(context.curve, "a curve");
+  const Trajectory& reference = needed(context.reference, "the complete reference");
   const double offset = context.protocol.offset;
   const std::vector<double> times = grid(curve, reference, offset, options.rate);
   std::vector<double> reference_times;
@@ -116,7 +116,7 @@ inline std::vector<Score> jerk(const Evaluation& evaluation, const JerkOptions& 
     reference_jerk.push_back(jerk_of(&reference_samples[i]));
   }
   if (estimate_jerk.empty()) {
-    throw Undefined("jerk: curve and reference have no four consecutive samples in common at " +
+    throw Undefined("curve and reference have no four consecutive samples in common at " +
                     to_text(options.rate) + " Hz outside gaps");
   }
   const int ddof = evaluation.protocol.ddof;
@@ -145,7 +145,7 @@ inline Motion limit(double stamp, const Vector3& origin, const StampedPose* samp
     offsets[k] = samples[k].stamp - stamp;
     points[k] = samples[k].world_from_body.translation - origin;
     if (offsets[k] == 0.0 || (k > 0 && offsets[k] == offsets[k - 1])) {
-      throw std::runtime_error("jumps: the stamps around " + to_text(stamp) +
+      throw std::runtime_error("the stamps around " + to_text(stamp) +
                                " s are too coarse for four samples next to a keyframe");
     }
   }
@@ -185,9 +185,9 @@ inline std::vector<double> times_beside(const Trajectory& keyframes, double reac
 /// without a curve or for fewer than three keyframes, std::runtime_error if the stamps are too
 /// coarse for four different times. O(keyframes).
 inline std::vector<Score> jumps(const Evaluation& evaluation, const JumpsOptions& options) {
-  const Curve& curve = needed(evaluation.context.curve, "jumps", "a curve");
-  const Trajectory& keyframes = needed(evaluation.context.estimate, "jumps", "keyframes");
-  if (keyframes.size() < 3) throw Undefined("jumps: needs at least three keyframes");
+  const Curve& curve = needed(evaluation.context.curve, "a curve");
+  const Trajectory& keyframes = needed(evaluation.context.estimate, "keyframes");
+  if (keyframes.size() < 3) throw Undefined("needs at least three keyframes");
   // One call, because evaluating a curve can have an O(n) setup cost.
   const Trajectory samples = curve.sample(times_beside(keyframes, options.reach));
   const double scale = evaluation.alignment.scale;
@@ -216,7 +216,7 @@ inline std::vector<Score> jumps(const Evaluation& evaluation, const JumpsOptions
 inline std::vector<Score> path_length_ratio(const Evaluation& evaluation) {
   const double estimate = path_length(evaluation.estimate);
   const double reference = path_length(evaluation.reference);
-  if (reference == 0.0) throw Undefined("path_length: the reference does not move");
+  if (reference == 0.0) throw Undefined("the reference does not move");
   return {directed(single("ratio", "", "1", estimate / reference), Better::target, 1.0),
           directed(single("estimate", "", "m", estimate), Better::neither),
           directed(single("reference", "", "m", reference), Better::neither)};

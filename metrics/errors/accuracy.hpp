@@ -66,10 +66,9 @@ inline void check_combination(const AccuracyOptions& options) {
 /// largest, at least 0. Throws Undefined for a reference of one stamp. O(n log n).
 inline std::vector<Score> accuracy(const Evaluation& evaluation, const AccuracyOptions& options) {
   const std::vector<double> thresholds = ascending_numbers("thresholds", options.thresholds);
-  const Trajectory& reference =
-      needed(evaluation.context.reference, "accuracy", "the complete reference");
+  const Trajectory& reference = needed(evaluation.context.reference, "the complete reference");
   const double duration = reference.back().stamp - reference.front().stamp;
-  if (!(duration > 0.0)) throw Undefined("accuracy: the reference has no duration");
+  if (!(duration > 0.0)) throw Undefined("the reference has no duration");
   std::vector<double> errors;
   for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
     errors.push_back((evaluation.reference[i].world_from_body.translation -

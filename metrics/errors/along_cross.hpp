@@ -47,7 +47,7 @@ inline std::vector<Vector3> directions(const Trajectory& reference, const AlongC
     while (known <= i) out[known++] = T;
   }
   if (known == 0) {
-    throw Undefined("along_cross: the reference never moves faster than " + to_text(o.rest_speed) +
+    throw Undefined("the reference never moves faster than " + to_text(o.rest_speed) +
                     " m/s, so it has no direction of travel");
   }
   return out;

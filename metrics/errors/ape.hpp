@@ -48,7 +48,7 @@ inline std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& op
   const bool is_distance =
       relation == Relation::point_distance || relation == Relation::translation_part;
   if (const std::string why = why_no_attitude(evaluation); !is_distance && !why.empty()) {
-    throw Undefined("ape: " + why);
+    throw Undefined(why);
   }
   const Trajectory& reference = evaluation.reference;
   const Trajectory& estimate = evaluation.estimate;

@@ -133,10 +133,10 @@ std::vector<NormalisedErrors> normalised_errors(const Evaluation& evaluation,
       covariance_at(
           *context.estimate, *context.estimate_covariances, evaluation.estimate.front().stamp)
           .isZero(0.0)) {
-    throw Undefined("nees: covariances are relative to the first pose, which needs gauge origin");
+    throw Undefined("covariances are relative to the first pose, which needs gauge origin");
   }
   if (what == Stated::planar && !free_columns(type).empty() && gauge != Gauge::protocol) {
-    throw Undefined("nees: planar covariances have no weighted alignment, expected gauge origin");
+    throw Undefined("planar covariances have no weighted alignment, expected gauge origin");
   }
   Trajectory estimate = evaluation.estimate;
   Alignment alignment = evaluation.alignment;
@@ -156,7 +156,7 @@ std::vector<NormalisedErrors> normalised_errors(const Evaluation& evaluation,
       each.squares.push_back(squared_norm(error, C, each.axes, stamp));
     }
   }
-  if (out.front().squares.empty()) throw Undefined("nees: no pair remains besides the origin");
+  if (out.front().squares.empty()) throw Undefined("no pair remains besides the origin");
   return out;
 }
 
@@ -227,10 +227,10 @@ void add_thirds(std::vector<Score>& out, const NormalisedErrors& errors, const R
 
 std::vector<Score> nees(const Evaluation& evaluation, const NeesOptions& options) {
   if (evaluation.context.estimate_covariances == nullptr) {
-    throw Undefined("nees: the estimate states no covariances");
+    throw Undefined("the estimate states no covariances");
   }
   if (evaluation.protocol.project != ProjectionPlane::none) {
-    throw Undefined("nees: covariances are not projected");
+    throw Undefined("covariances are not projected");
   }
   std::string why_no_rotation = why_no_attitude(evaluation);
   const Stated what = stated(*evaluation.context.estimate_covariances, why_no_rotation.empty());

@@ -120,7 +120,7 @@ std::vector<double> distances(const Motions& motions, Relation relation) {
     }
   });
   std::erase(out, kLeftOut);
-  if (out.empty()) throw Undefined("rpe: the reference does not move within any pair");
+  if (out.empty()) throw Undefined("the reference does not move within any pair");
   return out;
 }
 
@@ -136,11 +136,10 @@ void require_pairs(std::size_t pairs,
   const std::string delta = to_text(options.delta) + " " + to_text(options.unit);
   const std::string found = std::to_string(pairs) + (pairs == 1 ? " pair " : " pairs ");
   const std::string why =
-      pairs == 0
-          ? "rpe: none of " + std::to_string(poses) + " poses is " + delta + " before another"
-          : "rpe: found " + found + delta + " apart among " + std::to_string(poses) +
-                " poses, fewer than min_pairs = " +
-                std::to_string(std::llround(std::ceil(min_pairs)));
+      pairs == 0 ? "none of " + std::to_string(poses) + " poses is " + delta + " before another"
+                 : "found " + found + delta + " apart among " + std::to_string(poses) +
+                       " poses, fewer than min_pairs = " +
+                       std::to_string(std::llround(std::ceil(min_pairs)));
   if (measured == Measured::reference) throw Undefined(why);
   throw std::runtime_error(why);
 }
@@ -156,7 +155,7 @@ std::vector<Score> scores(const Motions& motions,
   const std::string& why = motions.why_no_attitude;
   const bool is_distance =
       relation == Relation::point_distance || relation == Relation::point_distance_error_ratio;
-  if (!is_distance && !why.empty()) throw Undefined("rpe: " + why);
+  if (!is_distance && !why.empty()) throw Undefined(why);
   if (relation == Relation::rpy) return rpy(motions, options.frame);
   std::vector<double> errors;
   if (is_distance) {
@@ -191,7 +190,7 @@ TumMotions random_motions(const Paired& complete,
                           std::size_t max_pairs,
                           const RpeOptions& options) {
   if (options.delta != RpeOptions{}.delta || options.unit != RpeOptions{}.unit) {
-    throw Undefined("rpe: pairs tum_random ignore delta = " + to_text(options.delta) + " " +
+    throw Undefined("pairs tum_random ignore delta = " + to_text(options.delta) + " " +
                     to_text(options.unit) + "; use rpe without delta and unit");
   }
   return tum_random_motions(complete, offset, alignment, max_pairs);

@@ -275,8 +275,8 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
   if (all.errors.rotation_rate.empty()) {
     std::string names;
     for (const Length& length : wanted) names += (names.empty() ? "" : ", ") + length.text;
-    throw Undefined("segments: no segment of the reference (" +
-                    to_text(evaluation.reference_length) + " m) has a length of " + names);
+    throw Undefined("no segment of the reference (" + to_text(evaluation.reference_length) +
+                    " m) has a length of " + names);
   }
   Scores out{evaluation.protocol, {}};
   if (rule.precision == Precision::float32) all.sort();

@@ -54,7 +54,7 @@ CovarianceRoot<Matrix> covariance_root(const Matrix& covariance, double stamp) {
   CovarianceRoot<Matrix> out(covariance);
   if (out.info() == Eigen::Success) return out;
   throw std::runtime_error(
-      fmt::format("nees: the covariance at stamp {:.9f} is not positive definite", stamp));
+      fmt::format("the covariance at stamp {:.9f} is not positive definite", stamp));
 }
 
 /// Columns of a change [translation; rotation; log scale] that an alignment by least squares has;

@@ -18,6 +18,7 @@ namespace loopbench::metrics {
 
 /// Thrown by a metric if the sequence, not the method, makes it undefined: no closures, no curve, a
 /// reference that does not move. Recorded as a `declined` row with this reason, not as a failure.
+/// Reasons do not name the metric: whatever prints them does.
 class Undefined final : public Declined {
  public:
   using Declined::Declined;
@@ -56,11 +57,17 @@ struct Context {
   const std::vector<std::size_t>* rejected_closures = nullptr;
 };
 
-/// Dereferences the view. Throws Undefined "METRIC: needs WHAT, which files do not have" if null.
+/// Dereferences the view. Throws Undefined "needs WHAT, which files do not have" if null.
 template <class View>
-const View& needed(const View* view, const std::string& metric, const std::string& what) {
-  if (view == nullptr) throw Undefined(metric + ": needs " + what + ", which files do not have");
+const View& needed(const View* view, const std::string& what) {
+  if (view == nullptr) throw Undefined("needs " + what + ", which files do not have");
   return *view;
+}
+
+/// The same; sources of version 1.0 named the metric.
+template <class View>
+const View& needed(const View* view, const std::string& /*metric*/, const std::string& what) {
+  return needed(view, what);
 }
 
 /// Pair counts that are reported with every score.

@@ -17,30 +17,29 @@
 namespace loopbench::metrics {
 
 /// Throws Undefined if there is no curve, or if the method was not replayed.
-inline const Replay& replay_of(const Evaluation& evaluation, const std::string& metric) {
-  const Replay* replay = needed(evaluation.context.curve, metric, "a replay").replay();
+inline const Replay& replay_of(const Evaluation& evaluation) {
+  const Replay* replay = needed(evaluation.context.curve, "a replay").replay();
   if (replay != nullptr) return *replay;
-  throw Undefined(metric + ": the method was not replayed; put `online +` in front of it");
+  throw Undefined("the method was not replayed; put `online +` in front of it");
 }
 
 /// Updates in which closures arrived or were withdrawn. Throws Undefined if there are none.
-inline std::vector<ReplayUpdate> closure_updates(const Evaluation& evaluation,
-                                                 const std::string& metric) {
+inline std::vector<ReplayUpdate> closure_updates(const Evaluation& evaluation) {
   std::vector<ReplayUpdate> out;
-  for (const ReplayUpdate& update : replay_of(evaluation, metric).updates) {
+  for (const ReplayUpdate& update : replay_of(evaluation).updates) {
     if (update.closures > 0) out.push_back(update);
   }
-  if (out.empty()) throw Undefined(metric + ": no closure arrived in the replay");
+  if (out.empty()) throw Undefined("no closure arrived in the replay");
   return out;
 }
 
 /// The causal trajectory of a replay (replay.hpp), keyframe k with the data that had arrived at its
 /// time, including closures that arrived with it; paired and aligned by the rules of the protocol
 /// like any other estimate, with an alignment of its own. The replay must outlive the result.
-/// Throws Undefined if the method was not replayed; `metric` is named in the reason. O(n log n).
-inline Evaluation causal_evaluation(const Evaluation& evaluation, const std::string& metric) {
-  const Replay& replay = replay_of(evaluation, metric);
-  const Trajectory& reference = needed(evaluation.context.reference, metric, "a reference");
+/// Throws Undefined if the method was not replayed. O(n log n).
+inline Evaluation causal_evaluation(const Evaluation& evaluation) {
+  const Replay& replay = replay_of(evaluation);
+  const Trajectory& reference = needed(evaluation.context.reference, "a reference");
   Evaluation out = evaluate(reference, replay.causal, evaluation.protocol);
   out.context = {.reference = &reference,
                  .estimate = &replay.causal,
@@ -52,11 +51,11 @@ inline Evaluation causal_evaluation(const Evaluation& evaluation, const std::str
 
 /// Scores of ate() and rpe() for the causal trajectory. Throws as causal_evaluation().
 inline std::vector<Score> causal_ate(const Evaluation& evaluation) {
-  return ate(causal_evaluation(evaluation, "causal_ate"));
+  return ate(causal_evaluation(evaluation));
 }
 
 inline std::vector<Score> causal_rpe(const Evaluation& evaluation, const RpeOptions& options) {
-  return rpe(causal_evaluation(evaluation, "causal_rpe"), options);
+  return rpe(causal_evaluation(evaluation), options);
 }
 
 /// Distance [m], scaled by the alignment, and rotation angle [deg] between the pose of the current
@@ -66,7 +65,7 @@ inline std::vector<Score> causal_rpe(const Evaluation& evaluation, const RpeOpti
 inline std::vector<Score> closure_jumps(const Evaluation& evaluation, const NoOptions& = {}) {
   std::vector<double> metres;
   std::vector<double> degrees;
-  for (const ReplayUpdate& update : closure_updates(evaluation, "closure_jumps")) {
+  for (const ReplayUpdate& update : closure_updates(evaluation)) {
     metres.push_back(evaluation.alignment.scale *
                      (update.after.translation - update.before.translation).norm());
     degrees.push_back(kDegrees *
@@ -97,8 +96,7 @@ inline Score growth_of_times(const std::vector<ReplayUpdate>& updates) {
   const std::size_t first = updates.front().keyframes;
   const std::size_t last = updates.back().keyframes;
   if (updates.size() < 3 || last < 2 * first) {
-    out.why_undefined =
-        "update_time: growth needs three updates over a doubled number of keyframes";
+    out.why_undefined = "growth needs three updates over a doubled number of keyframes";
     return out;
   }
   double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0;
@@ -129,8 +127,8 @@ inline Score growth_of_times(const std::vector<ReplayUpdate>& updates) {
 /// O(updates log updates).
 inline std::vector<Score> update_time(const Evaluation& evaluation,
                                       const UpdateTimeOptions& options) {
-  const std::vector<ReplayUpdate>& updates = replay_of(evaluation, "update_time").updates;
-  if (updates.empty()) throw Undefined("update_time: the replay had no update");
+  const std::vector<ReplayUpdate>& updates = replay_of(evaluation).updates;
+  if (updates.empty()) throw Undefined("the replay had no update");
   std::vector<double> sorted;
   for (const ReplayUpdate& update : updates) sorted.push_back(update.seconds);
   std::ranges::sort(sorted);

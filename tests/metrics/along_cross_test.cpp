@@ -74,7 +74,7 @@ TEST(AlongCross, RefusesAReferenceThatNeverMoves) {
   Trajectory still = corner();
   for (StampedPose& pose : still) pose.world_from_body.translation.setZero();
   EXPECT_EQ(why<std::runtime_error>([&] { along_cross(beside(still, still), {}); }),
-            "along_cross: the reference never moves faster than 0.05 m/s, so it has no direction "
+            "the reference never moves faster than 0.05 m/s, so it has no direction "
             "of travel");
 }
 

@@ -80,19 +80,17 @@ TEST(ClosurePrediction, IsUndefinedWithAReason) {
   };
   Problem problem = stretched();
   problem.closures.resize(2);
-  EXPECT_EQ(reason(problem), "closure_prediction: needs closures at two places, found 1");
+  EXPECT_EQ(reason(problem), "needs closures at two places, found 1");
   problem = stretched();
   problem.keyframes.back().world_from_body.translation.x() += 0.6;
-  EXPECT_EQ(reason(problem), "closure_prediction: the keyframes are not the poses of the odometry");
+  EXPECT_EQ(reason(problem), "the keyframes are not the poses of the odometry");
   problem = stretched();
   problem.closures[0].scale = 1.1;
-  EXPECT_EQ(
-      reason(problem),
-      "closure_prediction: an edge changes the scale (factor 1.1), but the keyframes are rigid");
+  EXPECT_EQ(reason(problem), "an edge changes the scale (factor 1.1), but the keyframes are rigid");
   Evaluation files;
   files.context.problem = &problem;
   EXPECT_EQ(why<Undefined>([&] { closure_prediction(files, {}); }),
-            "closure_prediction: needs a method that can run again, which files do not have");
+            "needs a method that can run again, which files do not have");
 }
 
 TEST(ClosureResidual, ByHandIncludingMahalanobis) {
@@ -145,10 +143,10 @@ TEST(ClosureResidual, RefusesWhereThereIsNothingToMeasure) {
   Problem problem;
   problem.keyframes = poses;
   EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(evaluate(poses, poses, kAsIs)); }),
-            "closure_residual: needs loop closures, which files do not have");
+            "needs loop closures, which files do not have");
   const EvaluatedCell none(poses, problem, poses, kAsIs);
   EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(none.evaluation); }),
-            "closure_residual: needs loop closures; the sequence has none");
+            "needs loop closures; the sequence has none");
   problem.closures.push_back({0, 5, {}, Matrix6::Identity(), 3.0});
   const EvaluatedCell scaled(poses, problem, poses, kAsIs);
   EXPECT_THROW(closure_residual(scaled.evaluation), std::runtime_error);
@@ -242,17 +240,17 @@ TEST(Jumps, RefusesFilesAndShortCurves) {
   poses[1].stamp = 1.0;
   poses[1].world_from_body.translation.x() = 1.0;
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(evaluate(poses, poses, kAsIs), {}); }),
-            "jumps: needs a curve, which files do not have");
+            "needs a curve, which files do not have");
   Problem problem;
   problem.keyframes = poses;
   const EvaluatedCell cell(poses, problem, poses, kAsIs);
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(cell.evaluation, {}); }),
-            "jumps: needs at least three keyframes");
+            "needs at least three keyframes");
   problem.keyframes.push_back({1.0 + 1e-15, poses[1].world_from_body});
   problem.keyframes[2].stamp = std::nextafter(1.0, 2.0);
   const EvaluatedCell coarse(poses, problem, problem.keyframes, kAsIs);
   EXPECT_EQ(why<std::runtime_error>([&] { jumps(coarse.evaluation, {}); }),
-            "jumps: the stamps around 1.0 s are too coarse for four samples next to a keyframe");
+            "the stamps around 1.0 s are too coarse for four samples next to a keyframe");
 }
 
 TEST(Jerk, ByHandOnACubic) {

@@ -69,7 +69,7 @@ TEST(InterpolationFloor, RefusesAReferenceThatIsNoDenserThanTheKeyframes) {
   parabola.estimate = parabola.reference;
   EXPECT_EQ(
       why<std::runtime_error>([&] { interpolation_floor(parabola.evaluation, {.max_gap = 0.6}); }),
-      "interpolation_floor: the reference has no pose between keyframes");
+      "the reference has no pose between keyframes");
   EXPECT_THROW(interpolation_floor(Evaluation{}, {}), std::runtime_error);
 }
 

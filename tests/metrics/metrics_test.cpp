@@ -87,9 +87,9 @@ TEST(Rpe, DeltaCountsFramesSecondsOrMetres) {
 
 TEST(Rpe, RefusesWhatItCannotMeasure) {
   EXPECT_EQ(why<std::runtime_error>([] { rpe(by_hand(), {.delta = 3}); }),
-            "rpe: none of 3 poses is 3.0 frames before another");
+            "none of 3 poses is 3.0 frames before another");
   EXPECT_EQ(why<std::runtime_error>([] { rpe(by_hand(), {.delta = 9, .unit = DeltaUnit::m}); }),
-            "rpe: none of 3 poses is 9.0 m before another");
+            "none of 3 poses is 9.0 m before another");
   EXPECT_THROW(rpe(by_hand(), {.delta = 1e30}), std::runtime_error);
 }
 

@@ -86,7 +86,8 @@ TEST(Online, IsUndefinedForMethodsThatWereNotReplayed) {
   for (const MetricEntry& metric : metrics::metrics()) {
     if (metric.summary.find("replay") == std::string::npos) continue;
     EXPECT_EQ(test::why<Undefined>([&] { metric.score(cell.evaluation, {}); }),
-              metric.name + ": the method was not replayed; put `online +` in front of it");
+              "the method was not replayed; put `online +` in front of it")
+        << metric.name;
   }
 }
 

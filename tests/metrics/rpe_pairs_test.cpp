@@ -29,7 +29,7 @@ TEST(RpePairs, OnePairOfManyPosesIsNoNumber) {
   const Evaluation evaluated = evaluate(reference, estimate, Protocol{});
   EXPECT_EQ(evaluated.coverage.pairs, 70u);
   EXPECT_EQ(why<Undefined>([&] { rpe(evaluated, kSecond); }),
-            "rpe: found 1 pair 1.0 s apart among 70 poses, fewer than min_pairs = 10");
+            "found 1 pair 1.0 s apart among 70 poses, fewer than min_pairs = 10");
 
   RpeOptions any = kSecond;
   any.min_pairs = 1.0;
@@ -56,7 +56,7 @@ TEST(RpePairs, ConsecutiveSecondsAreThoseAskedFor) {
   const auto of = [&](double delta) {
     return rpe(evaluated, {.delta = delta, .unit = DeltaUnit::s});
   };
-  EXPECT_EQ(why<Undefined>([&] { of(0.1); }), "rpe: none of 301 poses is 0.1 s before another");
+  EXPECT_EQ(why<Undefined>([&] { of(0.1); }), "none of 301 poses is 0.1 s before another");
   EXPECT_EQ(find(of(0.2), "translation", "3d").count, 100u);
 }
 
@@ -66,7 +66,7 @@ TEST(RpePairs, RandomOnesHaveNoDelta) {
   const Params drawn{{"pairs", std::string("tum_random")}};
   const Evaluation evaluated = evaluate(walk, walk, named_protocol("tum", drawn).rules);
   EXPECT_EQ(why<Undefined>([&] { rpe(evaluated, kSecond); }),
-            "rpe: pairs tum_random ignore delta = 1.0 s; use rpe without delta and unit");
+            "pairs tum_random ignore delta = 1.0 s; use rpe without delta and unit");
   EXPECT_EQ(rpe(evaluated, {.unit = DeltaUnit::s, .pairs = RpePairs::tum}).front().statistics.count,
             90u);
 }

@@ -183,7 +183,7 @@ TEST(Segments, WithoutAnySaysSo) {
   const Params far{{"segments.lengths", std::string("5000")}};
   EXPECT_EQ(
       why<std::runtime_error>([&] { segments(road(named_protocol("kitti", far).rules), {}); }),
-      "segments: no segment of the reference (1000.0 m) has a length of 5000 m");
+      "no segment of the reference (1000.0 m) has a length of 5000 m");
 }
 
 }  // namespace

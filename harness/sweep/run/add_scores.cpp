@@ -94,8 +94,6 @@ std::vector<ScoreResult> rows_of(const MetricChoice& choice,
     }
   });
   const bool has_thrown = is_failure(row.status) || row.status == Status::declined;
-  const std::string prefix = metric.name + ": ";  // tables print the name before the reason
-  if (row.why.starts_with(prefix)) row.why.erase(0, prefix.size());
   if (has_thrown) out.push_back(row);
   return out;
 }
