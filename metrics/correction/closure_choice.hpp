@@ -18,18 +18,18 @@ struct ClosureChoice {
   std::size_t dropped_true = 0;
 };
 
-/// Throws Undefined, with the name of a metric, if it is not known which closures are false, or if
-/// the method does not state which ones it rejected. O(closures).
-inline ClosureChoice closure_choice(const Evaluation& evaluation, const std::string& name) {
+/// Throws Undefined if it is not known which closures are false, or if the method does not state
+/// which ones it rejected. O(closures).
+inline ClosureChoice closure_choice(const Evaluation& evaluation) {
   const Context& context = evaluation.context;
-  const Problem& problem = needed(context.problem, name, "loop closures");
+  const Problem& problem = needed(context.problem, "loop closures");
   if (context.false_closures == nullptr) {
-    throw Undefined(name +
-                    ": which closures are false is not known; simulated closures, those "
-                    "measured in the reference, and false_closures.share have labels");
+    throw Undefined(
+        "which closures are false is not known; simulated closures, those measured in the "
+        "reference, and false_closures.share have labels");
   }
   if (context.rejected_closures == nullptr) {
-    throw Undefined(name + ": the method does not state which closures it rejects");
+    throw Undefined("the method does not state which closures it rejects");
   }
   ClosureChoice out;
   for (std::size_t k = 0; k < problem.closures.size(); ++k) {
@@ -50,8 +50,8 @@ inline Score share_of(std::size_t part, std::size_t all) {
 /// `share` [%]: false closures that the method kept, of all false ones. Throws Undefined if none is
 /// false, and what closure_choice() throws. Needs no reference. O(closures).
 inline std::vector<Score> closures_kept_false(const Evaluation& evaluation, const NoOptions&) {
-  const ClosureChoice found = closure_choice(evaluation, "closures_kept_false");
-  if (found.false_ones == 0) throw Undefined("closures_kept_false: no closure is false");
+  const ClosureChoice found = closure_choice(evaluation);
+  if (found.false_ones == 0) throw Undefined("no closure is false");
   return {share_of(found.kept_false, found.false_ones)};
 }
 
@@ -59,8 +59,8 @@ inline std::vector<Score> closures_kept_false(const Evaluation& evaluation, cons
 /// keyframes unchanged because it cannot decide rejects all. Throws Undefined if none is true, and
 /// what closure_choice() throws. Needs no reference. O(closures).
 inline std::vector<Score> closures_dropped_true(const Evaluation& evaluation, const NoOptions&) {
-  const ClosureChoice found = closure_choice(evaluation, "closures_dropped_true");
-  if (found.true_ones == 0) throw Undefined("closures_dropped_true: no closure is true");
+  const ClosureChoice found = closure_choice(evaluation);
+  if (found.true_ones == 0) throw Undefined("no closure is true");
   return {share_of(found.dropped_true, found.true_ones)};
 }
 
