@@ -12,7 +12,7 @@ namespace {
 
 /// Text options of datasets that name a file or folder.
 const std::vector<std::string> kPathOptions{
-    "path", "estimate", "reference", "frames", "truth", "closures.file"};
+    "path", "estimate", "reference", "frames", "times", "truth", "closures.file", "anchors.file"};
 
 bool has_wildcard(const std::string& text) {
   return text.find_first_of("*?[") != std::string::npos;
