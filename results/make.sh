@@ -28,7 +28,7 @@ if [[ -n $exam ]]; then
     { item = item $0 "\n" }
     END { flush() }' "$root/configs/held_out.yaml" >"$config"
   "$loopbench" run "$config" --data "$exam" --out "$root/results/exam" --failed-cells-ok
-  "$loopbench" compare "$root/results/exam" --where unit=m
+  "$root/results/evidence/judge.py" "$root/results/exam" --program "$loopbench"
   for loops in "$exam"/exam/{doubtful,few}/*/loops.txt; do
     [[ ! -e $loops ]] || "$loopbench" loops "${loops%loops.txt}odometry.txt" --loops "$loops" || true
   done

@@ -14,6 +14,7 @@ EVIDENCE = ROOT / "results" / "evidence"
 LOOPBENCH = os.path.abspath(sys.argv[1])
 sys.path.insert(0, str(EVIDENCE))
 
+from judge import CLAIMS, Claim, judged, table  # noqa: E402
 from make import Program, builds_of, with_parts  # noqa: E402
 from evidence_tables import chain_parts, choice_part, cost_table, outlier_parts, status_text  # noqa: E402
 
@@ -49,6 +50,25 @@ class Evidence(unittest.TestCase):
         for name, entries in (("chains", CHAINS), ("outliers", f"  - {{{DRIVE}, label: kiss_icp 00, {FALSE}}}\n")):
             (work / f"{name}.yaml").write_text(f"datasets:\n{entries}{METHODS}", encoding="utf-8")
         cls.chains, cls.outliers = (cls.program.store(work / f"{name}.yaml") for name in ("chains", "outliers"))
+
+    def test_the_judge_of_exams(self):
+        claim = Claim("trusted", "pose_graph", "raw", 0.8, worse=0.1)
+        row = {"ratio": "0.7", "ratio_low": "0.6", "ratio_high": "0.79", "better": "10", "worse": "1", "equal": "0"}
+        self.assertEqual(judged(claim, row), "confirmed")
+        for changes, word in (({"ratio_high": "0.81"}, "not decided"), ({"ratio_low": "0.801"}, "refuted"),
+                              ({"worse": "2"}, "refuted"), ({"ratio_low": ""}, "too few routes"), ({"ratio": ""}, "not examined")):
+            self.assertEqual(judged(claim, {**row, **changes}), word, changes)
+        work = Path(self.folder.name)
+        (work / "exam.yaml").write_text(
+            "datasets:\n  - {dataset: simulated, label: trusted, closures.max: 6}\nrepeats: 8\n"
+            "methods: [raw, uniform, pose_graph]\nmetrics: [ate]\ntimes: keyframes\n", encoding="utf-8")
+        lines = table(LOOPBENCH, self.program.store(work / "exam.yaml")).splitlines()
+        self.assertEqual(len(lines), 2 + len(CLAIMS))
+        found = {line for line in lines[2:] if not line.endswith("not examined |")}
+        self.assertEqual([line.split("|")[2].strip() for line in lines[2:] if line in found],
+                         ["`pose_graph` / `raw` <= 0.8", "`pose_graph` / `uniform` <= 1"])
+        for line in found:
+            self.assertRegex(line, r"\| \d\.\d{3} \(0\.\d{3} to \d\.\d{3}\) \| \d, \d \| (confirmed|not decided) \|$")
 
     def test_help_and_missing_data(self):
         done = run_make("--help")
