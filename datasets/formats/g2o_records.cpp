@@ -1,241 +1,19 @@
 #include "datasets/formats/g2o_records.hpp"
 
-#include <array>
 #include <string>
 #include <utility>
 
 #include "datasets/columns/columns.hpp"
 #include "datasets/columns/parts.hpp"
-#include "datasets/columns/pose_rules.hpp"
-#include "datasets/core/params.hpp"
-#include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/g2o_information.hpp"
+#include "datasets/formats/g2o_lines.hpp"
 
 namespace loopbench {
 namespace {
 
-enum class Layout { se2, quaternion, euler, quaternion_and_scale };
-
-struct Tag {
-  std::string_view word;
-  Layout pose;
-  const char* columns;  ///< for error messages
-
-  bool is_edge() const { return word.starts_with("EDGE"); }
-  GraphKind kind() const {
-    if (pose == Layout::se2) return GraphKind::planar;
-    return pose == Layout::quaternion_and_scale ? GraphKind::similarity : GraphKind::spatial;
-  }
-};
-
-constexpr std::array kTags{
-    Tag{"VERTEX_SE2", Layout::se2, "5: VERTEX_SE2 id x y yaw"},
-    Tag{"EDGE_SE2", Layout::se2, "12: EDGE_SE2 i j x y yaw and 6 of information"},
-    Tag{"VERTEX_SE3:QUAT", Layout::quaternion, "9: VERTEX_SE3:QUAT id x y z qx qy qz qw"},
-    Tag{"EDGE_SE3:QUAT",
-        Layout::quaternion,
-        "31: EDGE_SE3:QUAT i j x y z qx qy qz qw and 21 of information"},
-    Tag{"VERTEX_RST3:QUAT",
-        Layout::quaternion_and_scale,
-        "10: VERTEX_RST3:QUAT id x y z qx qy qz qw scale"},
-    Tag{"EDGE_RST3:QUAT",
-        Layout::quaternion_and_scale,
-        "32 or 39: EDGE_RST3:QUAT i j x y z qx qy qz qw scale and 21 or 28 of information"},
-    Tag{"VERTEX3", Layout::euler, "8: VERTEX3 id x y z roll pitch yaw"},
-    Tag{"EDGE3", Layout::euler, "30: EDGE3 i j x y z roll pitch yaw and 21 of information"},
-};
-
-/// Throws InputError for lines of switchable constraints.
-void reject_switch(const TextFile& file, const Line& line, std::string_view word) {
-  if (word.find("SWITCH") == std::string_view::npos) return;
-  throw file.error(
-      line.number,
-      "found " + std::string(word) +
-          ", a switchable constraint: expected EDGE_SE2 or EDGE_SE3:QUAT lines without "
-          "switches, which the methods pose_graph_dcs and pose_graph_gnc_tls weight "
-          "themselves");
-}
-
-const Tag& find_tag(const TextFile& file, const Line& line, std::string_view word) {
-  for (const Tag& tag : kTags) {
-    if (tag.word == word) return tag;
-  }
-  if (word.find("PLANE") != std::string_view::npos) {
-    throw file.error(
-        line.number,
-        "found " + std::string(word) +
-            ", a plane as in dumps of hdl_graph_slam: expected a graph of poses (remove the lines "
-            "VERTEX_PLANE and EDGE_SE3_PLANE, and FIX of the id of a plane)");
-  }
-  std::string known = "FIX";
-  for (const Tag& tag : kTags) known.append(", ").append(tag.word);
-  for (const PriorTag& tag : kPriorTags) known.append(", ").append(tag.word);
-  std::string what =
-      "unknown tag '" + std::string(word.substr(0, 40)) + "', expected one of " + known;
-  const auto format = guess(file, line);
-  if (format && *format != Format::g2o) what += " (looks like " + to_text(*format) + ")";
-  throw file.error(line.number, what);
-}
-
-/// Parser for one line. Throws InputError with the columns required by the tag if one is missing.
-class Record {
- public:
-  Record(const TextFile& file, const Line& line, const Tag& tag, const InformationRules& rules)
-      : file_(file), line_(line), tag_(tag), rules_(rules), columns_(file, line) {
-    columns_.word();
-  }
-
-  std::int64_t id(const char* what) {
-    need_column();
-    return columns_.integer(what);
-  }
-
-  double number(const char* what) {
-    need_column();
-    return columns_.number(what);
-  }
-
-  bool done() const { return columns_.done(); }
-
-  void end() const {
-    if (!done()) throw wrong_columns(file_, line_, Format::g2o, tag_.columns);
-  }
-
-  /// Parses position and rotation, and `scale` if the tag has one.
-  Pose pose(double& scale) {
-    Pose out;
-    out.translation.x() = number("x");
-    out.translation.y() = number("y");
-    if (tag_.pose == Layout::se2) {
-      out.rotation = exp_so3({0.0, 0.0, number("yaw")});
-      return out;
-    }
-    out.translation.z() = number("z");
-    if (tag_.pose == Layout::euler) {
-      const double roll = number("roll");
-      const double pitch = number("pitch");
-      const double yaw = number("yaw");
-      out.rotation =
-          exp_so3({0.0, 0.0, yaw}) * exp_so3({0.0, pitch, 0.0}) * exp_so3({roll, 0.0, 0.0});
-      return out;
-    }
-    const double x = number("qx");
-    const double y = number("qy");
-    const double z = number("qz");
-    const double w = number("qw");
-    out.rotation = normalized_rotation(file_, line_.number, {w, x, y, z});
-    if (tag_.pose == Layout::quaternion_and_scale) {
-      scale = number("scale");
-      if (!(scale > 0.0)) {
-        throw file_.error(line_.number, "scale is " + to_text(scale) + ", expected scale > 0");
-      }
-      if (!std::isfinite(1.0 / scale)) {
-        throw file_.error(line_.number,
-                          "scale is " + to_text(scale) + ", too small to be inverted");
-      }
-    }
-    return out;
-  }
-
-  /// Parses the rest of the line as information of a twist.
-  Matrix6 information() {
-    switch (tag_.pose) {
-      case Layout::se2:
-        return lift_planar(upper<3>());
-      case Layout::euler:
-        return upper<6>();
-      case Layout::quaternion:
-        return of_quaternion(upper<6>());
-      case Layout::quaternion_and_scale:
-        break;
-    }
-    const bool has_scale = count_columns(file_, line_) > 32;
-    return of_quaternion(has_scale ? Matrix6(upper<7>().topLeftCorner<6, 6>()) : upper<6>());
-  }
-
-  /// Whether the parsed information was not positive definite.
-  bool is_altered() const { return is_altered_; }
-
- private:
-  Matrix6 of_quaternion(const Matrix6& written) const {
-    return rules_.rotation == RotationInformation::half_angles ? from_half_angles(written)
-                                                               : written;
-  }
-
-  void need_column() const {
-    if (done()) throw wrong_columns(file_, line_, Format::g2o, tag_.columns);
-  }
-
-  /// Parses an upper triangle row by row. Throws InputError if it cannot be made positive definite.
-  template <int N>
-  Eigen::Matrix<double, N, N> upper() {
-    Eigen::Matrix<double, N, N> out;
-    for (int i = 0; i < N; ++i) {
-      for (int j = i; j < N; ++j) out(i, j) = out(j, i) = number("information");
-    }
-    end();
-    if (is_positive_definite(out)) return out;
-    if constexpr (N < 7) {
-      is_altered_ = true;
-      if (const auto made = made_definite<N>(out, rules_.indefinite)) return *made;
-    }
-    const bool is_rejected = rules_.indefinite == IndefiniteInformation::reject;
-    throw file_.error(line_.number,
-                      is_rejected ? "information is not positive definite (option indefinite: "
-                                    "repair, project)"
-                                  : "information is not positive definite and cannot be altered "
-                                    "as the option `indefinite` states");
-  }
-
-  const TextFile& file_;
-  const Line& line_;
-  const Tag& tag_;
-  InformationRules rules_;
-  bool is_altered_ = false;
-  Columns columns_;
-};
-
-VertexRecord read_vertex(Record record, const Line& line) {
-  VertexRecord out;
-  out.id = record.id("id");
-  double unused_scale = 1.0;
-  out.world_from_body = record.pose(unused_scale);
-  record.end();
-  out.line = line.number;
-  return out;
-}
-
-void read_edge(const TextFile& file, Record record, const Line& line, Records& out) {
-  const std::int64_t from = record.id("i");
-  const EdgeEnds ends{from, record.id("j"), line.number};
-  double inverse_scale = 1.0;
-  Edge& edge = out.edges.emplace_back();
-  edge.from_from_to = record.pose(inverse_scale);
-  edge.scale = 1.0 / inverse_scale;
-  edge.information = record.information();
-  out.altered += record.is_altered() ? 1 : 0;
-  out.scale_information += count_columns(file, line) > 32 ? 1 : 0;  // 39
-  if (ends.from == ends.to) {
-    throw file.error(line.number,
-                     "edge connects vertex " + std::to_string(ends.from) + " to itself");
-  }
-  out.ends.push_back(ends);
-}
-
-/// The rotation of the sensor has no effect on its position.
-OffsetRecord read_offset(const TextFile& file, const Line& line) {
-  Columns columns(file, line);
-  columns.word();
-  OffsetRecord out;
-  out.id = columns.integer("id");
-  for (double& x : out.point) x = columns.number("position");
-  return out;
-}
-
 Records read_g2o_part(TextFile& file, const InformationRules& rules) {
   first_line(file);
   Records out;
-  const Tag* first = nullptr;
+  const PoseTag* first = nullptr;
   std::size_t first_line_number = 0;
   for (Line line; file.next(line);) {
     const std::string_view word = Columns(file, line).peek();
@@ -252,8 +30,7 @@ Records read_g2o_part(TextFile& file, const InformationRules& rules) {
       out.priors.push_back(std::move(*prior));
       continue;
     }
-    reject_switch(file, line, word);
-    const Tag& tag = find_tag(file, line, word);
+    const PoseTag& tag = find_pose_tag(file, line, word);
     if (first == nullptr) {
       first = &tag;
       first_line_number = line.number;
@@ -265,16 +42,15 @@ Records read_g2o_part(TextFile& file, const InformationRules& rules) {
                            std::string(first->word) + " on line " +
                            std::to_string(first_line_number) + ", expected one kind of pose");
     }
-    const Record record(file, line, tag, rules);
     if (tag.is_edge()) {
       if (out.edges.empty()) {
         out.edges.reserve(file.estimated_lines(line));
         out.ends.reserve(file.estimated_lines(line));
       }
-      read_edge(file, record, line, out);
+      read_edge(file, line, tag, rules, out);
     } else {
       if (out.vertices.empty()) out.vertices.reserve(file.estimated_lines(line));
-      out.vertices.push_back(read_vertex(record, line));
+      out.vertices.push_back(read_vertex(file, line, tag));
     }
   }
   if (first == nullptr) throw file.error(0, "contains no vertices and no edges");
