@@ -177,7 +177,9 @@ void add_export(CLI::App& app, int& exit_code) {
     exit_code = kExitOk;
     if (a->what == "benchmark") {
       write_file(a->out.empty() ? "-" : a->out,
-                 benchmark_json(read_cells(a->store), read_provenance(a->store)));
+                 benchmark_json(read_cells(a->store),
+                                read_provenance(a->store),
+                                texts(counted_notes(a->store), Severity::info)));
       return;
     }
     if (a->what == "notes") {

@@ -98,6 +98,21 @@ class Notes(unittest.TestCase):
         caption = re.search(r"\\caption\{(.*)", text)[1]
         self.assertIn("5 of 6 runs of rp", caption.replace("\\allowbreak{}", "").replace("\\", ""))
 
+    def test_table_json(self):
+        tables = json.loads(self.run_program("table", "store", "--format", "json"))
+        self.assertIn(AHEAD, json.dumps(tables))
+
+    def test_table_of_successes(self):
+        self.assert_above(self.run_program("table", "store", "--success", "0.5"), "###")
+
+    def test_compare_latex(self):
+        text = self.run_program("compare", "store", "--baseline", "raw", "--format", "latex")
+        self.assertRegex(text, r"(?m)^% note: 5 of 6 runs of rp")
+
+    def test_compare_csv(self):
+        self.run_program("compare", "store", "--baseline", "raw", "--format", "csv", "-o", "compared.csv")
+        self.assertIn(AHEAD, (self.folder / "compared.provenance.json").read_text())
+
     def test_table_csv(self):
         self.run_program("table", "store", "--format", "csv", "-o", "table.csv")
         notes = json.loads((self.folder / "table.provenance.json").read_text())["notes"]
@@ -112,6 +127,16 @@ class Notes(unittest.TestCase):
         self.run_program("eval", "reference.txt", "rp/1.txt", "--report", "page.html")
         page = (self.folder / "page.html").read_text()
         self.assertIn(AHEAD, page)
+
+    def test_eval(self):
+        text = self.run_program("eval", "reference.txt", "rp/1.txt", "raw/1.txt")
+        self.assertIn(AHEAD, text[:text.index("| estimate")], text)
+
+    def test_eval_csv(self):
+        done = subprocess.run([PROGRAM, "eval", "reference.txt", "rp/1.txt", "raw/1.txt", "--csv"], cwd=self.folder,
+                              capture_output=True, text=True)
+        self.assertEqual(done.stderr.count(AHEAD), 1, done.stderr)
+        self.assertIn("loopbench: note: rp/1.txt: doctor", done.stderr)
 
     def test_eval_json(self):
         facts = json.loads(self.run_program("eval", "reference.txt", "rp/1.txt", "--json"))
@@ -134,6 +159,14 @@ class Notes(unittest.TestCase):
         os.environ["LOOPBENCH_PROGRAM"] = PROGRAM
         first = loopbench.notes(self.folder / "store")[0]
         self.assertEqual((first["kind"], first["severity"], first["runs"]), (AHEAD, "decisive", 5))
+
+    def test_export_rows(self):
+        self.run_program("export", "store", "-o", "rows.csv")
+        self.assertIn(AHEAD, (self.folder / "rows.provenance.json").read_text())
+
+    def test_export_benchmark(self):
+        context = json.loads(self.run_program("export", "store", "--what", "benchmark"))["context"]
+        self.assertEqual([text.startswith("5 of 6 runs of rp") for text in context["notes"]].count(True), 1)
 
     def test_export(self):
         notes = json.loads(self.run_program("export", "store", "--what", "notes"))

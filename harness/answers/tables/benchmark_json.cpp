@@ -62,10 +62,12 @@ void add_complexity(const Growth& growth, nlohmann::ordered_json& out) {
 }  // namespace
 
 std::string benchmark_json(const std::vector<CellRow>& cells,
-                           const std::map<std::string, std::string>& provenance) {
+                           const std::map<std::string, std::string>& provenance,
+                           const std::vector<std::string>& notes) {
   nlohmann::ordered_json context{{"executable", "loopbench"},
                                  {"num_cpus", sysconf(_SC_NPROCESSORS_ONLN)}};
   for (const auto& [key, value] : provenance) context[key] = value;
+  if (!notes.empty()) context["notes"] = notes;
   std::map<std::pair<SharedText, SharedText>, std::size_t> repetitions;
   for (const CellRow& cell : cells) ++repetitions[{cell.sequence, cell.method}];
   nlohmann::ordered_json all = nlohmann::ordered_json::array();

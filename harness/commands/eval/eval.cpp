@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "harness/answers/tables/record_csv.hpp"
 #include "harness/commands/commands.hpp"
@@ -16,6 +17,7 @@
 #include "harness/commands/eval/evaluated_parts.hpp"
 #include "harness/commands/eval/run_summary.hpp"
 #include "harness/commands/standard_output.hpp"
+#include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/process/write_file.hpp"
 #include "harness/sweep/text/printable.hpp"
 #include "harness/sweep/text/wrap.hpp"
@@ -131,6 +133,18 @@ void return_large_lists() {
 #endif
 }
 
+/// What can change a conclusion, on standard error: a CSV file has no place for it.
+void print_notes(const std::vector<EvaluationResult>& results) {
+  std::set<std::string> lines;
+  for (const EvaluationResult& result : results) {
+    for (const Note& note : result.notes) {
+      const std::string line = "loopbench: note: " + result.estimate + ": " + text(note);
+      const bool is_new = note.severity == Severity::decisive && lines.insert(line).second;
+      if (is_new) fmt::print(stderr, "{}\n", printable(line));
+    }
+  }
+}
+
 std::string printed(const EvalArguments& a, const Evaluations& all) {
   if (a.json) return json(all.results);
   return a.csv ? csv(all.records) : printable(result_text(a, all));
@@ -179,6 +193,7 @@ int eval(const EvalArguments& a, const Source& source) {
   if (!a.store.empty()) return print_stored(a, all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all.results));
   write_figures(a, all);
+  if (a.csv) print_notes(all.results);
   const std::string text = printed(a, all);
   if (is_dash(a.per_pose) && is_dash(a.out)) {
     fmt::print(stderr, "{}", text);  // rows are on standard output
