@@ -51,6 +51,18 @@ TEST(Compare, GivesTheNumbersOfAHandWorkedSweep) {
   EXPECT_DOUBLE_EQ(c.methods[3].median, 50.05);
 }
 
+TEST(Compare, TellsRunsWithEqualNamesApart) {
+  std::vector<Record> records = sweep();
+  for (Record& r : records) {
+    if (r.cell->sequence == "city") r.cell.edit().sequence = "room (repeat 1)";
+  }
+  const Comparison c = compared(records), plain = compared(sweep());
+  EXPECT_EQ(c.groups, 8u);
+  ASSERT_EQ(c.methods.size(), plain.methods.size());
+  EXPECT_EQ(c.methods[0].p, plain.methods[0].p);
+  EXPECT_EQ(c.methods[0].ratio->typical.estimate, plain.methods[0].ratio->typical.estimate);
+}
+
 TEST(Verdict, StatesHowMuchAndHowSureInOneLine) {
   EXPECT_EQ(sentence(compared(sweep())), "dual is best, 14 % below uniform (95 %: 11 to 16)");
 }

@@ -27,6 +27,27 @@ TEST(Gate, ReportsImprovementsAndPasses) {
   EXPECT_EQ(report.count(Finding::Kind::improvement), 1u);
 }
 
+TEST(Gate, TellsCellsWithEqualNamesApart) {
+  Baseline before = baseline();
+  std::vector<Record>& records = before.snapshot.records;
+  for (const char* const sequence : {"room (repeat 1)", "room / raw"}) {
+    for (std::size_t cell = 0; cell < 2; ++cell) {
+      Record other = sweep().records[cell];
+      other.cell.edit().sequence = sequence;
+      if (other.cell->method == "uniform") other.cell.edit().method = "raw / uniform";
+      records.push_back(other);
+    }
+  }
+  records.push_back(ate(0, "raw / raw", 0.1));  // as "room / raw" of raw
+  Snapshot now = before.snapshot;
+  EXPECT_TRUE(check(before, now).findings.empty());
+  rmse(now, 16) *= 2.0;
+  const GateReport report = check(before, now);
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].cell, "room (repeat 1) / raw");
+  EXPECT_EQ(report.cells, 21u);
+}
+
 TEST(Gate, FailsOnWhatFailsNewly) {
   EXPECT_FALSE(after([](Snapshot& now) { fail(now, 0, Status::ok); }).passes());
   for (const Status status :

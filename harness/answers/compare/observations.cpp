@@ -27,8 +27,12 @@ Observed observed(const Record& r, const std::string& value_name) {
 
 }  // namespace
 
-std::string group_name(const CellRow& cell) {
-  return cell.group.empty() ? cell.run_name() : cell.group.text();
+std::string run_id(const CellRow& cell) {
+  return cell.sequence + "\n" + std::to_string(cell.repeat);
+}
+
+std::string group_id(const CellRow& cell) {
+  return cell.group.empty() ? run_id(cell) : cell.group.text();
 }
 
 bool is_loss(const Record& r) { return r.status != Status::ok && r.status != Status::declined; }
@@ -46,13 +50,13 @@ void ObservationsBuilder::put(Observations& table, const Unscored& one) {
 
 void ObservationsBuilder::add(const Record& r) {
   const CellRow& cell = *r.cell;
-  const std::string run_name = cell.run_name();
-  const Unscored one{methods_.index(cell.method), run_names_.index(run_name), observed(r, value_)};
+  const Unscored one{
+      methods_.index(cell.method), run_ids_.index(run_id(cell)), observed(r, value_)};
   if (one.method == parts_.size()) parts_.push_back(cell.parts);
   if (one.run == runs_.size()) {
-    runs_.push_back({.name = run_name,
+    runs_.push_back({.name = cell.run_name(),
                      .sequence = cell.sequence,
-                     .group = group_name(cell),
+                     .group = group_id(cell),
                      .recording = cell.recording,
                      .is_of_files = cell.group_kind == GroupKind::files,
                      .content = cell.content,

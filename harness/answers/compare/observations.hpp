@@ -13,8 +13,11 @@
 
 namespace loopbench::harness {
 
-/// Runs with the same name belong to one group: CellRow::group, or otherwise the run itself.
-std::string group_name(const CellRow& cell);
+/// Which run it is. Names of runs can be equal: a sequence can be labelled "room (repeat 1)".
+std::string run_id(const CellRow& cell);
+
+/// Runs with the same id belong to one group: CellRow::group, or otherwise the run itself.
+std::string group_id(const CellRow& cell);
 
 /// Whether a record without a usable value counts as a loss of its method: the method failed,
 /// crashed, exceeded its limits, or its estimate is incomplete or has no score. A method or a score
@@ -80,7 +83,7 @@ class ObservationsBuilder {
   std::map<ScoreKind, std::size_t> kinds_;
   NameOrder methods_;
   std::vector<MethodParts> parts_;
-  NameOrder run_names_;
+  NameOrder run_ids_;
   std::vector<ObservedRun> runs_;
   std::vector<Observations> tables_;
   std::vector<Unscored> unscored_;  ///< records without a score, which count in every table

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
@@ -55,6 +56,19 @@ using CellRecords = std::span<const Record>;
 
 std::string name(const CellRecords& cell) { return cell.front().cell->name(); }
 
+/// Which cell it is. Names can be equal: "a / b" of method c, and a of method "b / c".
+using CellId = std::tuple<std::string, std::int64_t, std::string>;
+
+CellId id_of(const CellRecords& cell) {
+  const CellRow& row = *cell.front().cell;
+  return {row.sequence, row.repeat, row.method};
+}
+
+/// Which score of a cell it is, likewise.
+auto id_of(const ScoreKind& kind) {
+  return std::tuple(kind.metric_label(), kind.relation, kind.axis, kind.times, kind.protocol);
+}
+
 /// A cell with scores has no failure of its own.
 Status status_of(const CellRecords& cell) {
   return cell.front().has_score() ? Status::ok : cell.front().status;
@@ -74,8 +88,8 @@ class Checker {
       : extent_(extent), limit_of_(limit_of(baseline.limits)) {
     const std::vector<CellRecords> before = by_cell(baseline.snapshot.records);
     const std::vector<CellRecords> cells = by_cell(now.records);
-    for (const CellRecords& cell : cells) now_.emplace(name(cell), cell);
-    const auto is_there = [&](const CellRecords& cell) { return now_.contains(name(cell)); };
+    for (const CellRecords& cell : cells) now_.emplace(id_of(cell), cell);
+    const auto is_there = [&](const CellRecords& cell) { return now_.contains(id_of(cell)); };
     if (std::ranges::none_of(before, is_there)) {
       throw InputError("the baseline is from another sweep: the results contain no cell of '" +
                        baseline.snapshot.sweep + "'");
@@ -90,7 +104,7 @@ class Checker {
                       100.0 * most));
     }
     for (const CellRecords& cell : cells) {
-      if (!now_.contains(name(cell))) continue;
+      if (!now_.contains(id_of(cell))) continue;
       method_ = cell.front().cell->method;
       find(Finding::Kind::added, name(cell), "", "not in the baseline");
     }
@@ -147,7 +161,7 @@ class Checker {
 
   void add(const CellRecords& before) {
     const std::string label = name(before);
-    const auto found = now_.find(label);
+    const auto found = now_.find(id_of(before));
     if (found == now_.end() && extent_ == GateExtent::part) return;
     ++report_.cells;
     report_.names.push_back(label);
@@ -167,12 +181,12 @@ class Checker {
     }
     oracle(*before.front().cell, *now.front().cell);
     if (!status(status_of(before), status_of(now), label, "")) return;
-    std::map<std::string, const Record*> scores;
-    for (const Record& score : now) scores.emplace(score.kind->name(), &score);
+    std::map<decltype(id_of(ScoreKind())), const Record*> scores;
+    for (const Record& score : now) scores.emplace(id_of(*score.kind), &score);
     for (const Record& score : before) {
       if (!score.has_score()) continue;
       const std::string score_name = score.kind->name();
-      const auto same = scores.find(score_name);
+      const auto same = scores.find(id_of(*score.kind));
       if (same == scores.end()) {
         find(Finding::Kind::regression, label, score_name, "missing");
       } else if (status(score.status, same->second->status, label, score_name)) {
@@ -268,7 +282,7 @@ class Checker {
   bool is_unsteady_ = false;                                      // the present cell
   std::string method_;                                            // likewise
   std::size_t unlimited_ = 0;                                     // scores without a limit
-  std::map<std::string, CellRecords> now_;  // cells that the baseline did not have so far
+  std::map<CellId, CellRecords> now_;  // cells that the baseline did not have so far
   GateReport report_;
 };
 

@@ -53,9 +53,9 @@ std::string error_counts_text(const TableNumbers& table) {
   return fmt::format("{}", fmt::join(out, "; "));
 }
 
-/// Key of a run: the content of its data if known, otherwise its name.
+/// Key of a run: the content of its data if known, otherwise which run it is.
 std::string run_key(const CellRow& cell) {
-  return cell.content.empty() ? cell.run_name() : cell.content.text();
+  return cell.content.empty() ? run_id(cell) : cell.content.text();
 }
 
 /// The entry at the position, made if it is new.
@@ -73,7 +73,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   if (record.cell->oracle_closures) table.oracle_sequences.insert(record.cell->sequence);
   const std::size_t run = table.runs.index(run_key(*record.cell));
   if (run == table.group_of_run.size())
-    table.group_of_run.push_back(table.groups.index(group_name(*record.cell)));
+    table.group_of_run.push_back(table.groups.index(group_id(*record.cell)));
   table.records.push_back({&record, row});
   const bool is_ok = record.status == Status::ok;
   if (!is_ok) {
