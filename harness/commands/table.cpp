@@ -49,7 +49,6 @@ double half_interval(double deviation, std::size_t count) {
 
 /// Replaces standard deviations by half of the intervals of the means.
 void set_intervals(std::vector<Table>& tables) {
-  const std::string before = "their standard deviation";
   for (Table& table : tables) {
     for (std::vector<TableCell>& line : table.lines) {
       for (TableCell& cell : line) {
@@ -57,11 +56,11 @@ void set_intervals(std::vector<Table>& tables) {
       }
     }
     format_means(table);
-    for (std::string& note : table.notes) {
-      const std::size_t at = note.find(before);
-      if (at != std::string::npos)
-        note.replace(at, before.size(), "half of the 95 % interval of the mean (Student)");
-    }
+    if (!table.averages) continue;
+    Averages now = *table.averages;
+    now.deviation = Deviation::half_interval;
+    std::ranges::replace(table.notes, averages_text(*table.averages), averages_text(now));
+    table.averages = now;
   }
 }
 

@@ -87,6 +87,8 @@ Table numbers(int rows, int columns) {
   Table out{"wide", {"method"}, {}, {"a--b", "times: dense (others: --where times=...)"}};
   for (int column = 0; column < columns; ++column)
     out.headings.push_back("score " + std::to_string(column) + " [deg]");
+  out.units.assign(out.headings.size(), "deg");
+  out.units[0] = "";
   for (int row = 0; row < rows; ++row) {
     out.lines.push_back({"method " + std::to_string(row)});
     for (int column = 0; column < columns; ++column) out.lines.back().emplace_back("0.1234");
@@ -132,7 +134,8 @@ TEST(Formats, LatexHasACaptionAndALabel) {
 
 TEST(Formats, LatexExplainsEqualNumbersOfWhichOneIsBold) {
   Table table = numbers(3, 2);
-  table.notes = {"marked: shown to be better than each other method of the column"};
+  table.marks = {true, 1};
+  table.notes = {marks_text(*table.marks)};
   table.lines[0][1].is_best = true;
   const std::string text = latex(table);
   EXPECT_EQ(occurrences(text, "\\textbf{0.1234} & 0.1234 "), 1U) << text;
@@ -144,13 +147,35 @@ TEST(Formats, LatexExplainsEqualNumbersOfWhichOneIsBold) {
 
 TEST(Formats, StateACommonUnitOnce) {
   Table table{"dense", {"method", "room [m]", "hall [m]"}, {{"raw", "1", "2"}}, {}};
+  table.units = {"", "m", "m"};
   EXPECT_NE(latex(table).find("\\caption{dense {[}m]}"), std::string::npos) << latex(table);
   EXPECT_NE(latex(table).find("\nmethod & room & hall \\\\\n"), std::string::npos) << latex(table);
   table.title.clear();
   EXPECT_NE(markdown(table).find("| method [m] | room | hall |\n"), std::string::npos)
       << markdown(table);
   table.headings[2] = "hall [deg]";
+  table.units[2] = "deg";
   EXPECT_NE(markdown(table).find("| method | room [m] | hall [deg] |\n"), std::string::npos);
+}
+
+TEST(Formats, TakeNothingInANameForAUnitOrAMark) {
+  Table table{"", {"method", "room [m]", "hall [m]"}, {{"raw", "1", "1"}}, {}};
+  table.notes = {"marked: the second row"};
+  table.lines[0][1].is_best = true;
+  EXPECT_NE(markdown(table).find("| method | room [m] | hall [m] |\n"), std::string::npos)
+      << markdown(table);
+  EXPECT_EQ(latex(table).find("dagger"), std::string::npos) << latex(table);
+  EXPECT_NE(latex(table).find("marked: the second row"), std::string::npos) << latex(table);
+}
+
+TEST(Formats, LatexStatesWhatIsMarkedOfATransposedTable) {
+  Table table = numbers(3, 7);
+  table.marks = {true, 7};
+  table.notes = {marks_text(*table.marks), "a column"};
+  table.lines[0][1].is_best = true;
+  const std::string text = latex(table);
+  EXPECT_EQ(occurrences(text, "each other method of the row, corrected for 7 rows"), 1U) << text;
+  EXPECT_EQ(occurrences(text, "a column"), 1U) << text;
 }
 
 TEST(Formats, KeepNamesAndNumbersForMachines) {

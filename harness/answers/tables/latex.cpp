@@ -12,10 +12,9 @@ namespace {
 
 using Columns = std::vector<std::size_t>;
 
-constexpr double kGapBetween = 8.0;          ///< between columns [pt]: twice \tabcolsep
-constexpr double kNameShare = 0.4;           ///< of the width, for names that are broken into lines
-constexpr double kLeastScale = 0.75;         ///< of a table that does not fit
-constexpr const char* kMarked = "marked: ";  ///< begin of the note of mark_best()
+constexpr double kGapBetween = 8.0;   ///< between columns [pt]: twice \tabcolsep
+constexpr double kNameShare = 0.4;    ///< of the width, for names that are broken into lines
+constexpr double kLeastScale = 0.75;  ///< of a table that does not fit
 
 /// A column with its heading in lines.
 struct PaperColumn {
@@ -97,17 +96,12 @@ double natural_width(const std::vector<PaperColumn>& columns) {
   return out;
 }
 
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    text.replace(at, from.size(), to);
-  }
-}
-
 /// Columns become rows, also in the note on what is marked.
 Table transposed(const Table& table) {
   Table out = table;
-  const std::size_t unit = table.headings[0].find('[');
-  out.headings = {unit == std::string::npos ? "" : table.headings[0].substr(unit)};
+  const std::string unit = table.units.empty() ? "" : table.units[0];
+  out.headings = {unit.empty() ? "" : "[" + unit + "]"};
+  out.units.clear();
   for (const auto& line : table.lines) out.headings.push_back(line[0].text);
   out.lines.clear();
   for (std::size_t c = 1; c < table.headings.size(); ++c) {
@@ -115,20 +109,16 @@ Table transposed(const Table& table) {
     line.emplace_back(table.headings[c]);
     for (const auto& before : table.lines) line.push_back(before[c]);
   }
-  for (std::string& note : out.notes) {
-    if (!note.starts_with(kMarked)) continue;
-    const bool is_of_columns = note.find("column") != std::string::npos;
-    replace_all(note, is_of_columns ? "column" : "row", is_of_columns ? "row" : "column");
-  }
+  if (!table.marks) return out;
+  out.marks->is_of_columns = !table.marks->is_of_columns;
+  std::ranges::replace(out.notes, marks_text(*table.marks), marks_text(*out.marks));
   return out;
 }
 
 /// Marks numbers that are printed as a best one of their column (or row) but are not best.
 void mark_equal_numbers(Table& table) {
-  const auto found = std::ranges::find_if(
-      table.notes, [](const std::string& note) { return note.starts_with(kMarked); });
-  if (found == table.notes.end()) return;
-  const bool is_of_columns = found->find("column") != std::string::npos;
+  if (!table.marks) return;
+  const bool is_of_columns = table.marks->is_of_columns;
   bool is_marked = false;
   std::vector<std::pair<TableCell*, std::size_t>> best, others;  // with their column or row
   for (std::size_t r = 0; r < table.lines.size(); ++r) {
@@ -146,8 +136,10 @@ void mark_equal_numbers(Table& table) {
     is_marked = true;
   }
   if (!is_marked) return;
+  const auto about_marks = std::ranges::find(table.notes, marks_text(*table.marks));
   table.notes.insert(
-      found + 1, std::string(kDagger) + ": shown to be worse than an equally printed bold number");
+      about_marks == table.notes.end() ? about_marks : about_marks + 1,
+      std::string(kDagger) + ": shown to be worse than an equally printed bold number");
 }
 
 bool names_option(const std::string& text) {

@@ -10,7 +10,6 @@
 
 #include "harness/answers/compare/verdict.hpp"
 #include "harness/answers/tables/table_numbers.hpp"
-#include "harness/sweep/text/counted.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -121,10 +120,8 @@ void mark_best(Table& out, const TableNumbers& table, const TableSpec& spec, boo
     is_marked = true;
   }
   if (is_marked) {
-    const std::string lane = along_columns ? "column" : "row";
-    out.notes.insert(out.notes.begin(),
-                     "marked: shown to be better than each other method of the " + lane +
-                         (tested == 1 ? "" : ", corrected for " + counted(tested, lane)));
+    out.marks = {along_columns, tested};
+    out.notes.insert(out.notes.begin(), marks_text(*out.marks));
   } else if (!why_none.empty()) {
     out.notes.push_back("no best value is marked: " + why_none);
   }

@@ -17,10 +17,10 @@ namespace {
 /// With the unit of the statistic; counts have none that would tell translation and rotation apart.
 std::string column_name(const Record& r,
                         const std::vector<std::string>& names,
-                        const std::string& statistic) {
+                        const std::string& statistic,
+                        const std::string& unit) {
   std::string out = fields_joined(r, names, " ");
-  const std::string unit = unit_of(*r.kind, statistic);
-  if (!unit.empty()) return out + " [" + unit + "]";
+  if (!unit.empty()) return out + unit_suffix(unit);
   const bool has_relation =
       std::ranges::count(names, "relation") > 0 || std::ranges::count(names, "score") == 0;
   if (statistic == "count" && !has_relation && r.kind->relation == "rotation") out += " rotation";
@@ -92,7 +92,10 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     table.lost_by_method[record.cell->method].insert(run);
     return;
   }
-  const std::size_t column = table.columns.index(column_name(record, spec.columns, spec.value));
+  const std::string unit = unit_of(*record.kind, spec.value);
+  const std::size_t column =
+      table.columns.index(column_name(record, spec.columns, spec.value, unit));
+  if (column == table.units.size()) table.units.push_back(unit);
   table.records.back().column = column;
   TableEntry& entry = entry_at(table, row, column);
   if (entry.tried.empty()) entry.kind = record.kind;
@@ -148,11 +151,11 @@ void explain_averages(Table& out, const TableNumbers& table, const TableSpec& sp
   out.facts = fmt::format(
       "{}; times: {}; runs per number: at most {}", spec.value, fmt::join(times, ", "), most);
   if (most < 2) return;
-  std::string text = "each number is the mean of up to " + std::to_string(most) + " cells";
-  if (is_uneven) text += ", in which each sequence counts once";
-  if (spec.plus_minus) text += ", \u00b1 their standard deviation";
-  if (has_gain) text += "; gain is 1 - the geometric mean ratio to the baseline";
-  out.notes.insert(out.notes.begin(), text);
+  out.averages = {.most = most,
+                  .is_uneven = is_uneven,
+                  .deviation = spec.plus_minus ? Deviation::standard : Deviation::none,
+                  .has_gain = has_gain};
+  out.notes.insert(out.notes.begin(), averages_text(*out.averages));
 }
 
 /// The mean of an entry, or the reason why it has none.
@@ -183,6 +186,8 @@ Table finish(TableNumbers& table, const std::string& title, const TableSpec& spe
   const std::vector<std::string>& columns = table.columns.names();
   Table out{title, {fmt::format("{}", fmt::join(spec.rows, ", "))}, {}, table.notes};
   out.headings.insert(out.headings.end(), columns.begin(), columns.end());
+  out.units = table.units;
+  out.units.insert(out.units.begin(), "");
   const std::vector<std::string> missing = grouped(table.missing);
   out.notes.insert(out.notes.end(), missing.begin(), missing.end());
   if (const std::string counts = error_counts_text(table); !counts.empty()) {

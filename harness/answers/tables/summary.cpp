@@ -127,6 +127,8 @@ std::vector<Table> summary(const std::vector<Record>& records,
       .columns = {"score"}, .split = {}, .value = options.value, .show = {}, .where = {}};
   Table table = without_empty_columns(pivot(own, spec).front());
   table.notes.clear();
+  table.marks.reset();
+  table.averages.reset();
   table.title = fmt::format("{}, {}, mean over {}",
                             lead->kind->times,
                             options.value,

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "harness/answers/compare/stated.hpp"
+#include "harness/sweep/text/counted.hpp"
 #include "harness/sweep/text/printable.hpp"
 #include "harness/sweep/text/wrap.hpp"
 #include "metrics/correction/optimality.hpp"
@@ -45,6 +46,24 @@ bool has_content(const TableCell& cell) {
 }
 
 }  // namespace
+
+std::string averages_text(const Averages& averages) {
+  std::string out = fmt::format("each number is the mean of up to {} cells", averages.most);
+  if (averages.is_uneven) out += ", in which each sequence counts once";
+  if (averages.deviation == Deviation::standard) out += ", \u00b1 their standard deviation";
+  if (averages.deviation == Deviation::half_interval)
+    out += ", \u00b1 half of the 95 % interval of the mean (Student)";
+  if (averages.has_gain) out += "; gain is 1 - the geometric mean ratio to the baseline";
+  return out;
+}
+
+std::string marks_text(const BestMarks& marks) {
+  const std::string lane = marks.is_of_columns ? "column" : "row";
+  return "marked: shown to be better than each other method of the " + lane +
+         (marks.tested == 1 ? "" : ", corrected for " + counted(marks.tested, lane));
+}
+
+std::string unit_suffix(const std::string& unit) { return unit.empty() ? "" : " [" + unit + "]"; }
 
 int decimals(double largest) {
   if (!(largest > 0.0) || !std::isfinite(largest)) return 4;
@@ -87,21 +106,28 @@ Table without_empty_columns(Table table) {
     list = std::move(out);
   };
   keep(table.headings);
+  if (!table.units.empty()) keep(table.units);
   for (auto& line : table.lines) keep(line);
   return table;
 }
 
 Table with_common_unit(Table table) {
-  const std::vector<std::string>& headings = table.headings;
-  if (headings.size() < 3) return table;
-  const std::size_t begin = std::min(headings[1].rfind(" ["), headings[1].size());
-  const std::string unit = headings[1].substr(begin);
-  const auto has_unit = [&](const std::string& heading) { return heading.ends_with(unit); };
-  if (unit.empty() || !std::all_of(headings.begin() + 1, headings.end(), has_unit)) return table;
-  for (std::size_t c = 1; c < headings.size(); ++c) {
-    table.headings[c].resize(headings[c].size() - unit.size());
+  if (table.units.size() < 3) return table;
+  const std::string unit = table.units[1];
+  const auto is_other = [&](const std::string& each) { return each != unit; };
+  if (unit.empty() || std::any_of(table.units.begin() + 1, table.units.end(), is_other))
+    return table;
+  const std::string text = unit_suffix(unit);
+  for (std::size_t c = 1; c < table.headings.size(); ++c) {
+    table.headings[c].resize(table.headings[c].size() - text.size());
+    table.units[c].clear();
   }
-  (table.title.empty() ? table.headings[0] : table.title) += unit;
+  if (table.title.empty()) {
+    table.headings[0] += text;
+    table.units[0] = unit;
+  } else {
+    table.title += text;
+  }
   return table;
 }
 

@@ -19,7 +19,7 @@ struct TableCell {
   bool is_best = false;  ///< marked: its method is best in its column or row, see table_numbers.hpp
   bool has_mean = false;  ///< the next members are those of a mean
   std::optional<double> value = {};
-  std::optional<double> deviation = {};  ///< sample standard deviation, if requested
+  std::optional<double> deviation = {};  ///< see Averages, if requested
   std::size_t records = 0;               ///< records with a number (repeats, for example)
   std::size_t averaged = 0;  ///< of these, those on runs that all compared cells finished
   std::size_t possible = 0;  ///< records including failed and missing ones; 0: none is missing
@@ -30,16 +30,42 @@ struct TableCell {
   friend bool operator==(const TableCell&, const TableCell&) = default;
 };
 
+/// What is_best of cells is about: each column, or each row.
+struct BestMarks {
+  bool is_of_columns = true;
+  std::size_t tested = 1;  ///< columns (or rows) that the test is corrected for
+};
+
+/// The note about them: "marked: shown to be better than each other method of the column".
+std::string marks_text(const BestMarks& marks);
+
+/// What the deviations of cells are: of the values, or halves of the 95 % intervals of the means.
+enum class Deviation { none, standard, half_interval };
+
+/// How the means of a table were averaged.
+struct Averages {
+  std::size_t most = 1;    ///< cells of a mean
+  bool is_uneven = false;  ///< sequences have different numbers of cells, and count once each
+  Deviation deviation = Deviation::none;
+  bool has_gain = false;
+};
+
+/// The note about them: "each number is the mean of up to 6 cells".
+std::string averages_text(const Averages& averages);
+
 /// The first column has the row names and is left-aligned; the others are right-aligned.
 struct Table {
   std::string title;
-  std::vector<std::string> headings;          ///< with units
+  std::vector<std::string> headings;          ///< with units, as " [m]"
   std::vector<std::vector<TableCell>> lines;  ///< [row][column]
   std::vector<std::string> notes;             ///< one per line, below the table
   std::vector<std::string> above = {};        ///< what can change a conclusion, above the title
   std::string facts = {};  ///< for captions of papers: statistic, times, alignment, number of runs
-  std::size_t note_width = 0;  ///< of the notes in Markdown; 0: one line each
-  bool has_scores = true;      ///< false: all its cells are without a score
+  std::size_t note_width = 0;             ///< of the notes in Markdown; 0: one line each
+  bool has_scores = true;                 ///< false: all its cells are without a score
+  std::vector<std::string> units = {};    ///< of the columns; empty: no common unit
+  std::optional<BestMarks> marks = {};    ///< of the note about them
+  std::optional<Averages> averages = {};  ///< likewise
 };
 
 /// Properties of the terminal that a table is printed on.
@@ -65,6 +91,9 @@ void format_means(Table& table);
 /// Without the columns of means that have no value, if others have: the notes contain the reasons.
 /// The formats for reading leave them out.
 Table without_empty_columns(Table table);
+
+/// " [m]", with which the heading of a column ends; empty without a unit.
+std::string unit_suffix(const std::string& unit);
 
 /// With a unit that all of at least two columns share in the title, or in the first heading if
 /// there is no title, instead of in every heading.

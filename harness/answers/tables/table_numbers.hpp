@@ -69,6 +69,7 @@ struct TableNumbers {
 
   NameOrder rows;
   NameOrder columns;
+  std::vector<std::string> units;  // of the columns
   NameOrder runs;
   NameOrder groups;
   std::vector<std::size_t> group_of_run;

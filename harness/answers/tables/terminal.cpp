@@ -17,6 +17,7 @@ struct PrintedColumn {
   Lines entries;
   std::vector<bool> is_best;
   std::size_t wide = 3;
+  bool has_mark_column = false;  ///< the last character of its lines is for marks
 };
 
 std::size_t widest(const Lines& texts, std::size_t least) {
@@ -38,7 +39,8 @@ std::vector<PrintedColumn> columns_of(const Table& table) {
       column.entries.push_back(one_line(line[c].text) + sign);
       column.is_best.push_back(line[c].is_best);
     }
-    if (has_mark && c > 0) column.heading[0] += " ";
+    column.has_mark_column = has_mark && c > 0;
+    if (column.has_mark_column) column.heading[0] += " ";
     column.wide = widest(column.entries, widest(column.heading, 3));
   }
   return out;
@@ -54,13 +56,12 @@ std::size_t total_width(const std::vector<PrintedColumn>& columns) {
 void break_headings(std::vector<PrintedColumn>& columns, std::size_t narrowest) {
   for (PrintedColumn& column : columns) {
     const std::size_t body = widest(column.entries, 3);
-    const bool has_mark_column = column.heading[0].ends_with(' ');
     std::string heading;
     for (const std::string& line : column.heading) heading += (heading.empty() ? "" : " ") + line;
     Lines lines = wrapped(heading, std::max(body, narrowest));
     for (std::string& line : lines) {
       while (line.ends_with(' ')) line.pop_back();
-      if (has_mark_column) line += ' ';
+      if (column.has_mark_column) line += ' ';
     }
     column.heading = lines;
     column.wide = widest(lines, body);

@@ -81,9 +81,9 @@ std::string report_of(const std::vector<Record>& records,
       all, score.kind->relation, [](const Comparison& c) { return c.kind.relation; });
   Table verdict = verdict_table(verdict_of(*main, all));
   for (const std::string& each : limitations(*main)) verdict.notes.push_back(each);
-  std::string text = style ? terminal(verdict, *style) : markdown(verdict);
-  if (text.ends_with("\n\n")) text.pop_back();  // a table without rows
-  return text + "\n" + out;
+  const std::string text = style ? terminal(verdict, *style) : markdown(verdict);
+  const bool ends_blank = !style && verdict.headings.empty() && verdict.notes.empty();
+  return text + (ends_blank ? "" : "\n") + out;
 }
 
 }  // namespace
