@@ -86,6 +86,7 @@ bool is_stiff(const Problem& problem) {
 }
 
 Problem with_bounded_stiffness(const Problem& problem) {
+  if (problem.odometry.empty()) return problem;
   const Twist bound = bound_of(problem.odometry);
   Problem out = problem;
   for (Edge& closure : out.closures) {

@@ -35,7 +35,6 @@ class BlockCholesky {
   /// The pair (i, j) is on the diagonal or in the pairs of the structure.
   Location location(int i, int j) const;
   void set_zero() { ++matrix_; }
-  std::size_t size() const { return static_cast<std::size_t>(values_.size()); }  ///< numbers stored
   void add(const Location& at, const Block& block);
 
   /// Replaces the matrix by its factor; false: it is not positive definite to rounding.

@@ -71,9 +71,6 @@ class GraphInverse {
     columns.bottomRows(structure_.blocks() * D) = free;
   }
 
-  /// Numbers in the factor: the time of solve() for one column is proportional to them.
-  std::size_t size() const { return factor_.size(); }
-
  private:
   /// -1: the fixed pose.
   int block_of(std::size_t pose) const { return static_cast<int>(pose) - first_; }

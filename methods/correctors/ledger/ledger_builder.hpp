@@ -14,6 +14,7 @@
 #include "methods/correctors/ledger/ledger_verdict.hpp"
 #include "methods/correctors/ledger/odometry_errors.hpp"
 #include "methods/correctors/ledger/solution.hpp"
+#include "methods/correctors/plausibility.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "methods/solvers/left_out_parts.hpp"
 
@@ -40,7 +41,7 @@ template <class G>
 class LedgerBuilder {
  public:
   LedgerBuilder(const Problem& problem, const LedgerSettings& settings)
-      : settings_(settings), problem_(with_bounded_closures(problem)) {}
+      : settings_(settings), problem_(with_bounded_stiffness(problem)) {}
 
   ClosureLedger run() {
     const OdometryRuns runs(problem_);
@@ -151,7 +152,7 @@ class LedgerBuilder {
     for (std::size_t k = 0; k < out_.rows.size(); ++k) {
       (out_.finding(k) == ClosureFinding::agrees ? index : others).push_back(k);
     }
-    Problem trusted = with_bounded_closures(trusted_problem(problem_, out_));
+    Problem trusted = with_bounded_stiffness(trusted_problem(problem_, out_));
     const ClosureParts parts = closure_parts(trusted.closures, part_size());
     Pairs pairs = pairs_within(trusted.closures, parts);
     for (const std::size_t k : others) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "methods/correctors/ledger/solution.hpp"
+#include "methods/correctors/plausibility.hpp"
 #include "methods/solvers/graph_inverse.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
@@ -116,7 +117,7 @@ class Candidates {
 
 template <class G>
 NextClosures most_effective(const Problem& stated, std::size_t count) {
-  const Problem problem = with_bounded_closures(stated);
+  const Problem problem = with_bounded_stiffness(stated);
   const LedgerSolution at = ledger_solution(problem);
   const Candidates<G> candidates(problem, at);
   NextClosures out{candidates.deviation(), {}};

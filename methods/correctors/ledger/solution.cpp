@@ -26,21 +26,6 @@ LedgerSolution solution_from(const Problem& problem, PoseGraphOptimizer::Start s
 
 }  // namespace
 
-Problem with_bounded_closures(Problem problem) {
-  constexpr double kBound = 1e6;
-  Twist bound = Twist::Zero();
-  for (const Edge& edge : problem.odometry) bound = bound.cwiseMax(edge.information.diagonal());
-  if (problem.odometry.empty()) return problem;
-  bound.head<3>().setConstant(kBound * bound.head<3>().maxCoeff());
-  bound.tail<3>().setConstant(kBound * bound.tail<3>().maxCoeff());
-  for (Edge& closure : problem.closures) {
-    const Twist shrink = (bound.array() / closure.information.diagonal().array()).min(1.0).sqrt();
-    if ((shrink.array() == 1.0).all()) continue;
-    closure.information = (shrink.asDiagonal() * closure.information * shrink.asDiagonal()).eval();
-  }
-  return problem;
-}
-
 LedgerSolution ledger_solution(const Problem& problem) {
   constexpr double kImplausible = 3.0;  // chi2 per residual
   LedgerSolution out = solution_from(problem, PoseGraphOptimizer::Start::chordal);

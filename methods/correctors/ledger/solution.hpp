@@ -13,10 +13,6 @@ struct LedgerSolution {
   PoseGraphSettings settings;
 };
 
-/// The problem with the information of its closures bounded to 1e6 times the largest one of the
-/// odometry: larger ones change no solution by more than rounding, but its covariances.
-Problem with_bounded_closures(Problem problem);
-
 /// Minimum of a problem without a loss, from chordal relaxation and, if chi2 is large there, from
 /// the keyframes: the lower one. Throws std::runtime_error when the solver finds none.
 LedgerSolution ledger_solution(const Problem& problem);
