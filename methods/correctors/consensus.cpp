@@ -137,7 +137,7 @@ Trajectory Consensus::correct(const Problem& problem, Report& report) const {
   const bool is_calibrated = found.is_decided() && found.evidence > 0.0;
   Problem agreed = agreed_problem(problem, used);
   const bool has_anchors = add_anchors(problem, is_calibrated, agreed, report);
-  if (!found.is_decided()) {
+  if (!found.is_decided() && notes_undecided_) {
     report.notes.push_back(undecided_text(found) + (has_anchors
                                                         ? ": closures are not used"
                                                         : ": keyframes returned unchanged"));

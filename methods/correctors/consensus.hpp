@@ -23,8 +23,11 @@ class Consensus final : public Corrector {
     bool covariances = false;
   };
   /// `known`: judgement of the problem that will be corrected, if it was computed before.
-  explicit Consensus(const Options& options, std::shared_ptr<const ClosureJudgement> known = {})
-      : options_(options), known_(std::move(known)) {}
+  /// `notes_undecided`: whether a note states why closures do not decide.
+  explicit Consensus(const Options& options,
+                     std::shared_ptr<const ClosureJudgement> known = {},
+                     bool notes_undecided = true)
+      : options_(options), known_(std::move(known)), notes_undecided_(notes_undecided) {}
 
   /// Declines what judge_closures() does not judge, and names pose_graph. Anchors are enough.
   std::string why_declined(const Problem& problem) const override;
@@ -40,6 +43,7 @@ class Consensus final : public Corrector {
  private:
   Options options_;
   std::shared_ptr<const ClosureJudgement> known_;
+  bool notes_undecided_;
 };
 
 template <class Visit>

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "datasets/core/fields.hpp"
-#include "harness/sweep/model/loops.hpp"
+#include "harness/commands/loops/loop_json.hpp"
 #include "harness/sweep/text/counted.hpp"
 #include "methods/correctors/consensus/judgement_text.hpp"
 
@@ -32,8 +32,10 @@ std::string of_all(std::size_t part, std::size_t all) {
 /// Consensus followed the check.
 CheckSentence of_consensus(const ClosureJudgement& found, const Problem& problem) {
   if (!found.is_decided()) {
-    return {"nothing is moved: " + methods::undecided_text(found) +
-                "; --trust-loops corrects with all closures",
+    const char* const what = problem.anchors.empty() ? "nothing is moved" : "no closure is used";
+    return {fmt::format("{}: {}; --trust-loops corrects with all closures",
+                        what,
+                        methods::undecided_text(found)),
             true};
   }
   const std::vector<std::size_t> dropped = methods::disagreeing_closures(found);
@@ -42,11 +44,6 @@ CheckSentence of_consensus(const ClosureJudgement& found, const Problem& problem
     out += "; dropped: " + methods::disagreeing_text(problem, found, dropped);
   }
   return {out + details(found, problem)};
-}
-
-/// A reason to decline without what it states about the method, and without its advice.
-std::string cause(const std::string& why) {
-  return why.substr(0, std::min(why.find(", which "), why.find(": use pose_graph")));
 }
 
 /// Another method chose the closures.
@@ -78,17 +75,8 @@ CheckSentence of_other(const ClosureCheck& check, const Problem& problem, const 
   return {out, !wrong.empty() || !steps.empty()};
 }
 
-nlohmann::json name_of(const Problem& problem, std::size_t keyframe) {
-  if (!problem.ids.empty()) return problem.ids[keyframe];
-  return shown_stamp(problem.keyframes[keyframe].stamp);
-}
-
-nlohmann::json finite(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
-}
-
 nlohmann::json factors_json(const methods::EstimatedFactors& factors) {
-  return {{"rotation", factors.is_rotation_known ? finite(factors.rotation) : nullptr},
+  return {{"rotation", factors.is_rotation_known ? nlohmann::json(factors.rotation) : nullptr},
           {"rotation_direction", methods::direction_text(factors.rotation)},
           {"translation", methods::direction_text(factors.translation)}};
 }
@@ -96,12 +84,17 @@ nlohmann::json factors_json(const methods::EstimatedFactors& factors) {
 }  // namespace
 
 ClosureCheck check_closures(const Problem& problem) {
-  if (std::string why = methods::why_not_judged(problem); !why.empty()) return {std::move(why)};
+  ClosureCheck out;
+  const methods::NotJudged fault = methods::not_judged(problem);
+  out.why_not = fault.text();
+  out.cause = fault.cause;
+  if (!fault.cause.empty()) return out;
   try {
-    return {"", std::make_shared<ClosureJudgement>(methods::judge_closures(problem))};
+    out.judgement = std::make_shared<ClosureJudgement>(methods::judge_closures(problem));
   } catch (const std::runtime_error& error) {
-    return {error.what()};
+    out.why_not = out.cause = error.what();
   }
+  return out;
 }
 
 std::vector<std::size_t> disagreeing_used(const ClosureCheck& check, const ClosureUse& use) {
@@ -117,7 +110,7 @@ CheckSentence sentence(const ClosureCheck& check, const Problem& problem, const 
         fmt::format("{} are used by {}; they were not checked: {}",
                     of_all(problem.closures.size() - use.rejected.size(), problem.closures.size()),
                     use.method,
-                    cause(check.why_not))};
+                    check.cause)};
   }
   return use.is_consensus ? of_consensus(*check.judgement, problem) : of_other(check, problem, use);
 }
@@ -125,34 +118,28 @@ CheckSentence sentence(const ClosureCheck& check, const Problem& problem, const 
 nlohmann::json json(const ClosureCheck& check, const Problem& problem) {
   if (check.judgement == nullptr) return {{"checked", false}, {"why_not", check.why_not}};
   const ClosureJudgement& found = *check.judgement;
-  nlohmann::json closures = nlohmann::json::array(), steps = nlohmann::json::array();
+  nlohmann::json closures = nlohmann::json::array();
   for (std::size_t k = 0; k < found.closures.size(); ++k) {
     const methods::JudgedClosure& each = found.closures[k];
-    closures.push_back({{"from", name_of(problem, problem.closures[k].from)},
-                        {"to", name_of(problem, problem.closures[k].to)},
+    closures.push_back({{"from", keyframe_json(problem, problem.closures[k].from)},
+                        {"to", keyframe_json(problem, problem.closures[k].to)},
                         {"finding", loopbench::to_text(each.finding)},
-                        {"log_odds", finite(each.log_odds)},
-                        {"metres", finite(each.metres)},
-                        {"degrees", finite(each.degrees)}});
+                        {"log_odds", each.log_odds},
+                        {"metres", each.metres},
+                        {"degrees", each.degrees}});
   }
-  for (const methods::FreedStep& each : found.steps) {
-    steps.push_back({{"from", name_of(problem, each.from)},
-                     {"to", name_of(problem, each.from + 1)},
-                     {"metres", finite(each.metres)},
-                     {"degrees", finite(each.degrees)},
-                     {"inflation", finite(each.inflation)}});
-  }
-  return {{"checked", true},
-          {"why_not", nullptr},
-          {"outcome", loopbench::to_text(found.outcome)},
-          {"agreeing", found.agreeing},
-          {"more_needed", found.more_needed},
-          {"evidence", finite(found.evidence)},
-          {"evidence_needed", finite(found.evidence_needed)},
-          {"rival_evidence", found.rival_evidence ? finite(*found.rival_evidence) : nullptr},
-          {"deviations", factors_json(found.factors)},
-          {"steps", steps},
-          {"closures", closures}};
+  return {
+      {"checked", true},
+      {"why_not", nullptr},
+      {"outcome", loopbench::to_text(found.outcome)},
+      {"agreeing", found.agreeing},
+      {"more_needed", found.more_needed},
+      {"evidence", found.evidence},
+      {"evidence_needed", found.evidence_needed},
+      {"rival_evidence", found.rival_evidence ? nlohmann::json(*found.rival_evidence) : nullptr},
+      {"deviations", factors_json(found.factors)},
+      {"steps", steps_json(problem, found.steps)},
+      {"closures", closures}};
 }
 
 }  // namespace loopbench::harness

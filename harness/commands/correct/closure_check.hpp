@@ -11,7 +11,8 @@
 namespace loopbench::harness {
 
 struct ClosureCheck {
-  std::string why_not;  ///< why the closures cannot be judged; empty: `judgement` is set
+  std::string why_not = {};  ///< why the closures cannot be judged; empty: `judgement` is set
+  std::string cause = {};    ///< of that, without a remark about the method
   std::shared_ptr<const methods::ClosureJudgement> judgement = {};
 
   bool is_decided() const { return judgement != nullptr && judgement->is_decided(); }

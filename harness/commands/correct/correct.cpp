@@ -120,13 +120,15 @@ bool has_stage(const MethodChoice& choice, const std::string& name) {
   return std::ranges::any_of(choice.stages, [&](const Choice& each) { return each.name == name; });
 }
 
-/// The catalogue whose consensus uses the judgement of the check.
-Catalogue with_judgement(Catalogue catalogue, const ClosureCheck& check) {
+/// The catalogue whose consensus uses this judgement, if any, and leaves it to the sentence of the
+/// check to state why closures do not decide.
+Catalogue with_judgement(Catalogue catalogue,
+                         const std::shared_ptr<const methods::ClosureJudgement>& known) {
   for (methods::MethodEntry& entry : catalogue.methods) {
     if (entry.name != kConsensus) continue;
-    entry.make = [known = check.judgement](const Params& given) -> methods::Stage {
-      return std::unique_ptr<const methods::Corrector>(
-          std::make_unique<methods::Consensus>(with(methods::Consensus::Options{}, given), known));
+    entry.make = [known](const Params& given) -> methods::Stage {
+      return std::unique_ptr<const methods::Corrector>(std::make_unique<methods::Consensus>(
+          with(methods::Consensus::Options{}, given), known, false));
     };
   }
   return catalogue;
@@ -140,13 +142,6 @@ std::string method_name(const CorrectArguments& a,
   const bool is_judged = check ? check->judgement != nullptr : !problem.anchors.empty();
   const bool declines = !methods::Consensus({}).why_declined(problem).empty();
   return is_judged && !declines && !a.trusts_loops ? kConsensus : "pose_graph";
-}
-
-/// Removes notes of the method that the sentence of the check contains.
-void settle_notes(Correction& done) {
-  if (!done.is_consensus || done.check->is_decided()) return;
-  const std::string why = methods::undecided_text(*done.check->judgement);
-  std::erase_if(done.report.notes, [&](const std::string& note) { return note.starts_with(why); });
 }
 
 /// correct(); a method that fails on the input is an InputError.
@@ -233,7 +228,8 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   const std::vector<double> at = output_stamps(a, problem, outside);
   const bool is_consensus = check && check->judgement && has_stage(choice, kConsensus);
   const bool is_replay = has_stage(choice, "online");  // consensus judges other problems, too
-  const Catalogue used = is_consensus && !is_replay ? with_judgement(catalogue, *check) : catalogue;
+  const Catalogue used =
+      is_consensus ? with_judgement(catalogue, is_replay ? nullptr : check->judgement) : catalogue;
   Correction out =
       corrected(std::move(problem), a.estimate, choice, at, used, check ? &*check : nullptr);
   out.outside = outside;
@@ -244,7 +240,6 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
     out.seconds += checked.count();
     out.report.phases.insert(out.report.phases.begin(), {"judge", checked.count()});
   }
-  settle_notes(out);
   if (!a.ledger.empty()) write_ledger(a, out);
   const Rotation body_from_file = out.provenance.file_body_from_body.rotation.conjugate();
   change_body(out.problem, body_from_file);

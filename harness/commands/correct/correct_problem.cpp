@@ -122,8 +122,9 @@ Correction correct(Problem problem,
   out.before = residuals(kept, out.problem.keyframes, out.why_no_residuals);
   out.after = residuals(kept, out.keyframes, out.why_no_residuals);
   out.rejected = rejected_closures(out);
-  // Of the solver's start, not of the input.
-  std::erase_if(out.report.counts, [](const auto& c) { return c.name.ends_with("chi2_before"); });
+  std::erase_if(out.report.counts, [](const methods::Count& c) {  // of the solver's start
+    return c.name == "chi2_before" || c.name == "robust_chi2_before";
+  });
   for (const Note& note : notes_of_closures(out.problem, kept, closure_check)) {
     out.report.notes.push_back(text(note));
   }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/commands/correct/correct.hpp"
+#include "harness/commands/loops/loop_json.hpp"
 #include "harness/commands/loops/loops.hpp"
 #include "harness/sweep/process/write_file.hpp"
 #include "harness/sweep/text/counted.hpp"
@@ -44,13 +45,10 @@ std::string rejected_text(const Correction& c) {
 nlohmann::json rejected_json(const Correction& c) {
   if (!c.report.rejected) return nullptr;
   nlohmann::json out = nlohmann::json::array();
-  const auto end = [&](std::size_t keyframe) -> nlohmann::json {
-    if (!c.problem.ids.empty()) return c.problem.ids[keyframe];
-    return shown_stamp(c.problem.keyframes[keyframe].stamp);
-  };
   for (const std::size_t k : *c.report.rejected) {
     const Edge& edge = c.problem.closures[k];
-    out.push_back({{"from", end(edge.from)}, {"to", end(edge.to)}});
+    out.push_back(
+        {{"from", keyframe_json(c.problem, edge.from)}, {"to", keyframe_json(c.problem, edge.to)}});
   }
   return out;
 }
@@ -59,17 +57,11 @@ nlohmann::json rejected_json(const Correction& c) {
 
 CheckSentence check_sentence(const Correction& c) {
   if (!c.check) return {};
-  CheckSentence out =
-      sentence(*c.check,
-               c.problem,
-               {.method = c.method,
-                .is_consensus = c.is_consensus,
-                .rejected = c.report.rejected.value_or(std::vector<std::size_t>{})});
-  constexpr std::string_view kUnmoved = "nothing is moved: ";
-  if (!c.problem.anchors.empty() && out.text.starts_with(kUnmoved)) {  // anchors may move them
-    out.text.replace(0, kUnmoved.size(), "no closure is used: ");
-  }
-  return out;
+  return sentence(*c.check,
+                  c.problem,
+                  {.method = c.method,
+                   .is_consensus = c.is_consensus,
+                   .rejected = c.report.rejected.value_or(std::vector<std::size_t>{})});
 }
 
 std::string text(const Correction& c) {

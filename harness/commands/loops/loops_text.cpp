@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/core/fields.hpp"
+#include "harness/commands/loops/loop_json.hpp"
 #include "harness/commands/loops/loops.hpp"
 #include "harness/sweep/text/counted.hpp"
 
@@ -27,27 +28,6 @@ Json row_json(const LoopsResult& result, std::size_t rank) {
     } else {
       out[name] = number.is_discarded() ? Json(value) : number;
     }
-  }
-  return out;
-}
-
-/// Id or stamp.
-Json keyframe_json(const Problem& problem, std::size_t keyframe) {
-  if (!problem.ids.empty()) return problem.ids[keyframe];
-  return shown_stamp(problem.keyframes[keyframe].stamp);
-}
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-Json steps_json(const LoopsResult& result) {
-  Json out = Json::array();
-  if (!result.ledger.judgement) return out;
-  for (const methods::FreedStep& step : result.ledger.judgement->steps) {
-    out.push_back({{"from", keyframe_json(result.problem, step.from)},
-                   {"to", keyframe_json(result.problem, step.from + 1)},
-                   {"metres", number_or_null(step.metres)},
-                   {"degrees", number_or_null(step.degrees)},
-                   {"inflation", number_or_null(step.inflation)}});
   }
   return out;
 }
@@ -162,9 +142,10 @@ std::string json(const LoopsResult& result, const std::optional<methods::NextClo
            {"sentence", verdict_text(result)},
            {"places", ledger.places},
            {"better_places", ledger.better_places},
-           {"ratio", ledger.places > 1 ? number_or_null(ledger.ratio) : Json()},
+           {"ratio", ledger.places > 1 ? Json(ledger.ratio) : Json()},
            {"covered", ledger.covered},
-           {"steps", steps_json(result)},
+           {"steps",
+            ledger.judgement ? steps_json(result.problem, ledger.judgement->steps) : Json::array()},
            {"closures", Json::array()}};
   for (std::size_t rank = 0; rank < ledger.suspects.size(); ++rank) {
     out["closures"].push_back(row_json(result, rank));

@@ -48,28 +48,34 @@ bool is_motion_measured(const Problem& problem) {
   return 2 * problem.odometry.size() >= problem.keyframes.size() - 1;
 }
 
-}  // namespace
-
-std::string why_no_odometry(const Problem& problem) {
+NotJudged no_odometry(const Problem& problem) {
   if (has_scale_drift(problem)) {
-    return "edges change the scale, which this method does not estimate: use pose_graph";
+    return {"edges change the scale", ", which this method does not estimate: use pose_graph"};
   }
   const Problem measured = measured_part(problem);
   if (const auto unreached = first_unconnected(measured)) {
-    return "the graph is not connected: no path from keyframe " + problem.name_of(0) +
-           " to keyframe " + problem.name_of(*unreached);
+    return {"the graph is not connected: no path from keyframe " + problem.name_of(0) +
+            " to keyframe " + problem.name_of(*unreached)};
   }
   if (!is_motion_measured(measured)) {
-    return "odometry joins " + std::to_string(measured.odometry.size()) + " of " +
-           std::to_string(problem.keyframes.size() - 1) +
-           " pairs of neighbouring keyframes, fewer than half: use pose_graph";
+    return {"odometry joins " + std::to_string(measured.odometry.size()) + " of " +
+                std::to_string(problem.keyframes.size() - 1) +
+                " pairs of neighbouring keyframes, fewer than half",
+            ": use pose_graph"};
   }
-  return "";
+  return {};
 }
 
-std::string why_not_judged(const Problem& problem) {
-  return problem.closures.empty() ? "the problem has no loop closures" : why_no_odometry(problem);
+}  // namespace
+
+std::string why_no_odometry(const Problem& problem) { return no_odometry(problem).text(); }
+
+NotJudged not_judged(const Problem& problem) {
+  if (problem.closures.empty()) return {"the problem has no loop closures"};
+  return no_odometry(problem);
 }
+
+std::string why_not_judged(const Problem& problem) { return not_judged(problem).text(); }
 
 ClosureJudgement judge_closures(const Problem& problem) {
   const Problem measured = measured_part(problem);

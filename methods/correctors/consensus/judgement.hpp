@@ -80,6 +80,17 @@ struct ClosureJudgement {
   bool is_decided() const { return outcome == ConsensusOutcome::decided; }
 };
 
+/// A fault of a problem, and a remark about the method, which follows it: ": use pose_graph".
+struct NotJudged {
+  std::string cause;  ///< empty: no fault
+  std::string remark = {};
+
+  std::string text() const { return cause + remark; }
+};
+
+/// The fault for which judge_closures() does not apply.
+NotJudged not_judged(const Problem& problem);
+
 /// Returns why judge_closures() does not apply, or an empty text: no closures, edges that
 /// change the scale, keyframes that are not connected, or odometry between fewer than half of them.
 std::string why_not_judged(const Problem& problem);
