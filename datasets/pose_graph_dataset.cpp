@@ -166,10 +166,11 @@ void check_combination(const PoseGraphOptions& o, const Params& given) {
   if (o.closures == GraphClosures::none) {
     reject_disabled(given,
                     {"closures.max", "closures.skip_placeholders", "closures.true_list"},
-                    "closures.source = none",
+                    "closures.source",
+                    "none",
                     "edges");
     if (o.false_closures.share > 0.0) {
-      reject_disabled(given, {"false_closures.share"}, "closures.source = none", "edges");
+      reject_disabled(given, {"false_closures.share"}, "closures.source", "none", "edges");
     }
   }
 }

@@ -7,36 +7,36 @@ namespace loopbench {
 namespace {
 
 void check_disabled(const TrajectoryOptions& o, const Params& given) {
-  const std::string source = "closures.source = " + to_text(o.closures);
+  const auto reject_with_source = [&, source = to_text(o.closures)](
+                                      std::initializer_list<const char*> options,
+                                      const std::string& expected) {
+    reject_disabled(given, options, "closures.source", source, expected);
+  };
   const bool measured =
       o.closures == ClosureSource::reference || o.closures == ClosureSource::estimate;
   if (!measured) {
-    reject_disabled(given,
-                    {"closures.radius",
-                     "closures.angle",
-                     "closures.min_gap",
-                     "closures.max",
-                     "closures.max_interval"},
-                    source,
-                    "reference or estimate");
+    reject_with_source({"closures.radius",
+                        "closures.angle",
+                        "closures.min_gap",
+                        "closures.max",
+                        "closures.max_interval"},
+                       "reference or estimate");
   }
   if (o.closures == ClosureSource::none) {
-    reject_disabled(given,
-                    {"closures.sigma_t", "closures.sigma_r", "closures.max_diff"},
-                    source,
-                    "file, reference or estimate");
+    reject_with_source({"closures.sigma_t", "closures.sigma_r", "closures.max_diff"},
+                       "file, reference or estimate");
   }
   if (o.closures == ClosureSource::none || o.closures == ClosureSource::reference) {
-    reject_disabled(given, {"closures.file"}, source, "file or estimate");
+    reject_with_source({"closures.file"}, "file or estimate");
   }
   if (o.closures == ClosureSource::none && o.false_closures.share > 0.0) {
-    reject_disabled(given, {"false_closures.share"}, source, "file, reference or estimate");
+    reject_with_source({"false_closures.share"}, "file, reference or estimate");
   }
   if (o.anchors_file.empty()) reject_disabled_by_missing(given, "anchors.", "anchors.file");
   if (o.reference.empty()) reject_disabled_by_missing(given, "reference_", "reference");
   if (o.keyframes.rule == KeyframeRule::all) {
     reject_disabled(
-        given, {"keyframes.value"}, "keyframes.rule = all", "every, seconds, metres or count");
+        given, {"keyframes.value"}, "keyframes.rule", "all", "every, seconds, metres or count");
   }
 }
 

@@ -117,7 +117,7 @@ Decoded read_topic(const std::string& file, const std::string& name) {
 }
 
 Decoded read_tf(const std::string& file, const std::string& frames) {
-  TransformTree tree;
+  TransformTree tree(file);
   std::string damage;
   std::size_t invalid = 0;
   double off_unit = 0.0;
@@ -152,8 +152,7 @@ Decoded read_tf(const std::string& file, const std::string& frames) {
       return out;
     }
   } catch (const InputError& error) {
-    const std::string what = error.what();
-    throw InputError((what.starts_with(file) ? what : file + ": " + what) + damage);
+    throw InputError(error.what() + damage);
   }
   throw InputError(file + ": tf:" + frames + ": expected tf:PARENT.CHILD");
 }

@@ -17,12 +17,15 @@ namespace loopbench {
 
 class TransformTree {
  public:
+  /// `bag`: its file, for errors; empty: not known.
+  explicit TransformTree(const std::string& bag = "") : bag_(bag.empty() ? "" : bag + ": ") {}
+
   /// Adds a transform. A static transform holds at all times. Throws InputError if the frame
   /// already has another parent.
   void add(const PoseMessage& message, bool is_static) {
     Link& link = links_[message.child];
     if (!link.parent.empty() && link.parent != message.frame) {
-      throw InputError("frame '" + message.child + "' has two parents, '" + link.parent +
+      throw InputError(bag_ + "frame '" + message.child + "' has two parents, '" + link.parent +
                        "' and '" + message.frame + "', expected a tree of transforms");
     }
     link.parent = message.frame;
@@ -56,7 +59,7 @@ class TransformTree {
     if (common == up.end()) {
       std::string known;
       for (const std::string& frame : frames()) known += (known.empty() ? "" : ", ") + frame;
-      throw InputError("no transforms connect '" + parent + "' and '" + child +
+      throw InputError(bag_ + "no transforms connect '" + parent + "' and '" + child +
                        "' (frames: " + (known.empty() ? "none" : known) + ")");
     }
     std::vector<Step> steps;
@@ -73,7 +76,7 @@ class TransformTree {
       if (!step.link->is_static && is_denser) densest = step.link;
     }
     if (densest == nullptr) {
-      throw InputError("the transform from '" + parent + "' to '" + child +
+      throw InputError(bag_ + "the transform from '" + parent + "' to '" + child +
                        "' is static, expected one that moves");
     }
     std::vector<PoseMessage> out;
@@ -116,7 +119,7 @@ class TransformTree {
     std::vector<std::string> out{frame};
     for (auto at = links_.find(frame); at != links_.end(); at = links_.find(out.back())) {
       if (std::ranges::count(out, at->second.parent) > 0) {
-        throw InputError("frame '" + frame +
+        throw InputError(bag_ + "frame '" + frame +
                          "' is its own ancestor, expected a tree of transforms");
       }
       out.push_back(at->second.parent);
@@ -144,6 +147,7 @@ class TransformTree {
     return step.inverse ? out.inverse() : out;
   }
 
+  std::string bag_;  ///< for errors
   std::map<std::string, Link> links_;  ///< by child frame
 };
 

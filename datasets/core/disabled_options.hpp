@@ -13,18 +13,18 @@ inline void require_option(bool condition, const std::string& option, const std:
   if (!condition) throw OptionError(option, option + ": " + message);
 }
 
-/// Throws OptionError if one of `options` is `given` although it has no effect with `disabled_by`
-/// ("closures.source = file"). `expected` lists the values of that option with which it has one.
+/// Throws OptionError if one of `options` is `given` although it has no effect with this `value` of
+/// the option `other`. `expected` lists the values of that option with which it has one.
 inline void reject_disabled(const Params& given,
                             std::initializer_list<const char*> options,
-                            const std::string& disabled_by,
+                            const std::string& other,
+                            const std::string& value,
                             const std::string& expected) {
   for (const char* option : options) {
     if (!given.contains(option)) continue;
-    const std::string other = disabled_by.substr(0, disabled_by.find(' '));
     throw OptionError(option,
-                      std::string(option) + ": has no effect with " + disabled_by + ", expected " +
-                          other + " = " + expected);
+                      std::string(option) + ": has no effect with " + other + " = " + value +
+                          ", expected " + other + " = " + expected);
   }
 }
 

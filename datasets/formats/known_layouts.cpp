@@ -55,27 +55,33 @@ void reject_known(const TextFile& file, const Line& line) {
   if (is_of_colmap(file, line)) {
     what =
         "has 10 columns as images.txt of COLMAP (camera_from_world): awk '!/^#/ && ++n%2 {print "
-        "$1,$6,$7,$8,$3,$4,$5,$2}' FILE > images.tum; loopbench traj transform images.tum "
+        "$1,$6,$7,$8,$3,$4,$5,$2}' " +
+        file.name() +
+        " > images.tum; loopbench traj transform images.tum "
         "--sort --invert-poses -o poses.txt; stamps are numbers of images, or take the time "
         "from the name in column 10";
   } else if (count == 7 && is_unit(3, 4)) {
     what =
         "has 7 columns, a pose x y z qx qy qz qw without a stamp? Expected one in the first "
-        "column: paste -d' ' TIMES FILE > poses.txt, with one time per line";
+        "column: paste -d' ' TIMES " +
+        file.name() + " > poses.txt, with one time per line";
   } else if (count == 7 && file.name().find(".traj") != std::string::npos) {
     what =
         "has 7 columns in a .traj file as of ARKitScenes: a stamp, a rotation vector and a "
         "position "
         "of camera_from_world: awk '{a=sqrt($2^2+$3^2+$4^2); s=a?sin(a/2)/a:0.5; print "
-        "$1,$5,$6,$7,$2*s,$3*s,$4*s,cos(a/2)}' OFMT=%.12g CONVFMT=%.17g FILE > rows.txt; loopbench "
+        "$1,$5,$6,$7,$2*s,$3*s,$4*s,cos(a/2)}' OFMT=%.12g CONVFMT=%.17g " +
+        file.name() +
+        " > rows.txt; loopbench "
         "traj transform rows.txt --invert-poses -o poses.txt";
   } else if (count == 7) {
     what =
         "has 7 columns, a stamp, a position and three angles? Expected a quaternion; for the "
-        "positions alone: awk '{print $1,$2,$3,$4}' FILE > poses.txt";
+        "positions alone: awk '{print $1,$2,$3,$4}' " +
+        file.name() + " > poses.txt";
   }
   if (what.empty()) return;
-  throw file.error(line.number, what.replace(what.find("FILE"), 4, file.name()));
+  throw file.error(line.number, what);
 }
 
 }  // namespace loopbench
