@@ -10,6 +10,7 @@
 
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/options.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/sweep/catalogue/catalogue.hpp"
 #include "harness/sweep/config/keys.hpp"
@@ -77,14 +78,6 @@ std::string type_of(const OptionInfo& option) {
   if (option.is_text) return "text";
   if (std::holds_alternative<bool>(option.value)) return "boolean";
   return std::holds_alternative<std::int64_t>(option.value) ? "integer" : "number";
-}
-
-/// The text in brackets; empty unless there is exactly one.
-std::string unit_in(const std::string& help) {
-  const std::size_t begin = help.find('[');
-  const std::size_t end = help.find(']', begin);
-  const bool is_one = end != std::string::npos && help.find('[', end) == std::string::npos;
-  return is_one ? help.substr(begin + 1, end - begin - 1) : "";
 }
 
 void add_rule(Json& out, const OptionInfo& option) {

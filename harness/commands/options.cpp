@@ -1,6 +1,7 @@
 #include "harness/commands/options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -15,13 +16,18 @@ namespace {
 /// Type of an option for this field, with the words of an enum.
 std::string value_type(const OptionInfo& field) {
   if (std::holds_alternative<std::int64_t>(field.value)) return "INT";
-  if (!field.is_text) return field.help.ends_with("[s]") ? "S" : "FLOAT";
-  std::string words = field.rule;
-  std::erase(words, ' ');
-  return words.empty() ? "TEXT" : "WORD:" + words;
+  if (!field.is_text) return unit_in(field.help) == "s" ? "S" : "FLOAT";
+  return field.words.empty() ? "TEXT" : fmt::format("WORD:{}", fmt::join(field.words, "|"));
 }
 
 }  // namespace
+
+std::string unit_in(const std::string& help) {
+  const std::size_t begin = help.find('[');
+  const std::size_t end = help.find(']', begin);
+  const bool is_one = end != std::string::npos && help.find('[', end) == std::string::npos;
+  return is_one ? help.substr(begin + 1, end - begin - 1) : "";
+}
 
 void declare_reading(CLI::App& command,
                      ReadArguments& reading,

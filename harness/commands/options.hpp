@@ -19,6 +19,9 @@ void declare_reading(CLI::App& command,
                      ReadArguments& reading,
                      const std::vector<std::string>& without = {});
 
+/// The unit in the brackets of a help text, by convention; empty unless there is exactly one.
+std::string unit_in(const std::string& help);
+
 /// A field of a protocol with an option of its own, besides --set.
 struct FieldOption {
   std::string field;

@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -114,7 +115,11 @@ inline bool limits_time(const std::vector<Tolerance>& limits) {
 /// Whether some of its cells were computed by a build with uncommitted changes.
 inline bool is_dirty(const std::map<std::string, std::string>& build_summary) {
   const auto source = build_summary.find("source");
-  return source != build_summary.end() && source->second.find("dirty") != std::string::npos;
+  std::istringstream builds(source == build_summary.end() ? "" : source->second);
+  for (std::string state; std::getline(builds, state);) {  // one of each build: clean | dirty
+    if (state == "dirty") return true;
+  }
+  return false;
 }
 
 /// The neighbours that belong to one cell.

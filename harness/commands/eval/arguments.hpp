@@ -22,6 +22,7 @@ struct EvalArguments : ReadArguments {
   std::vector<std::string> estimates;
   std::optional<Format> reference_format;  ///< none: same as `format`
   bool diagnose = true;              ///< likely mistakes in the files, notes and the diagnosis
+  bool keeps_failed = false;         ///< an only evaluation that fails is a result with a reason
   double reference_sigma = 0.0;      ///< of its positions, per axis [m]; 0: not stated
   bool reference_positions = false;  ///< ignore the rotations of the reference
   std::optional<std::string> reference_body;  ///< x,y,z[,qx,qy,qz,qw]; none: no offset

@@ -135,7 +135,7 @@ std::vector<FileEvaluation> evaluated_cells(const std::vector<Cell>& cells,
   const EvalArguments& a = files.arguments;
   if (!a.store.empty()) return out;
   std::ranges::sort(out, {}, [](const FileEvaluation& each) { return each.result.cell.dataset; });
-  require_evaluated(out);
+  if (!a.keeps_failed) require_evaluated(out);
   if (!a.min_coverage) check_coverage(out);
   return out;
 }

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <string_view>
 
 #include "datasets/columns/columns.hpp"
 #include "datasets/columns/text_file.hpp"
@@ -162,14 +161,11 @@ Evaluations evaluated_part(const EvalArguments& a,
   try {
     return evaluate_in_memory(a, reference, part);
   } catch (const InputError& error) {
-    constexpr std::string_view kNames = "estimate with reference reference: ";  // of no file
-    std::string why = error.what();
-    if (why.starts_with(kNames)) why.erase(0, kNames.size());
     Evaluations out;
     for (const metrics::NamedProtocol& protocol : protocols(a)) {
       EvaluationResult& own = out.results.emplace_back();
       own.protocol = protocol;
-      own.why_failed = why;
+      own.why_failed = error.what();
     }
     return out;
   }
@@ -184,6 +180,7 @@ void add_estimate(const EvalArguments& a, const std::string& name, Evaluations& 
   EvalArguments own = a;
   own.diagnose = false;
   own.min_coverage = 0.0;
+  own.keeps_failed = true;
   std::vector<std::vector<EvaluationResult>> by_protocol(rules.size());
   for (const RowRange& rows : parts) {
     EvaluatedFile part = estimate;

@@ -47,14 +47,12 @@ std::string header_text(const std::string& given) {
   return out;
 }
 
-/// `shows_errors`: its standard error is that of this process instead of a part of `output`.
-ProgramEnd run_program(const std::vector<std::string>& words,
-                       std::string& output,
-                       bool shows_errors = false) {
+/// Its standard error is that of this process.
+ProgramEnd run_program(const std::vector<std::string>& words, std::string& output) {
   ProgramStart start;
   start.arguments = words;
   start.folder = ".";
-  start.shows_errors = shows_errors;
+  start.shows_errors = true;
   for (const char* name : {"LOOPBENCH_DATA", "LOOPBENCH_CACHE"}) {  // hidden from other programs
     if (const char* value = std::getenv(name)) start.environment.emplace_back(name, value);
   }
@@ -78,18 +76,15 @@ void reject_own_options(const std::vector<std::string>& options) {
   }
 }
 
-/// What `run` rejects is rejected now, and not by every task.
-void check_options(const SlurmSweep& sweep) {
+/// Whether `run` accepts the options; it prints what it rejects, now and not in every task.
+bool are_accepted(const SlurmSweep& sweep) {
   std::vector<std::string> words{sweep.program.string(), "run", sweep.config.string()};
   words.insert(words.end(), sweep.options.begin(), sweep.options.end());
   words.insert(words.end(), {"--out", sweep.out.string(), "--dry-run"});
   std::string line;
   for (const std::string& word : words) line += shell_quoted(word) + " ";
-  std::string errors;
-  if (run_program({"sh", "-c", line + ">/dev/null"}, errors).exit_code == 0) return;
-  const std::string prefix = "loopbench: ";
-  while (errors.ends_with('\n')) errors.pop_back();
-  throw InputError(errors.starts_with(prefix) ? errors.substr(prefix.size()) : errors);
+  std::string output;
+  return run_program({"sh", "-c", line + ">/dev/null"}, output).exit_code == 0;
 }
 
 /// The number in the last line of `sbatch --parsable`: NUMBER or NUMBER;CLUSTER.
@@ -109,7 +104,7 @@ std::string submitted(const fs::path& script, const std::string& after) {
   if (!after.empty()) words.push_back("--dependency=afterany:" + after);
   words.push_back(script.string());
   std::string output;
-  const ProgramEnd end = run_program(words, output, true);
+  const ProgramEnd end = run_program(words, output);
   if (end.start_error != 0) {
     throw InputError(
         "sbatch: cannot be started; without Slurm, run the scripts of `submit --print`");
@@ -131,7 +126,7 @@ int submit(const SubmitArguments& arguments) {
   sweep.options = arguments.options;
   sweep.header = header_text(arguments.header);
   reject_own_options(sweep.options);
-  check_options(sweep);
+  if (!are_accepted(sweep)) return kExitBadInput;
   const std::string shards = slurm_shard_script(sweep);
   const std::string merge = slurm_merge_script(sweep);
   if (arguments.print) {
