@@ -1,6 +1,7 @@
 #include "datasets/simulated/edges.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -34,6 +35,12 @@ Twist drift_of(const SystematicDrift& drift, const Pose& before_from_after, cons
   const Vector3 step_in_after =
       before_from_after.rotation.conjugate() * before_from_after.translation;
   return twist(drift.scale * step_in_after, Vector3(0.0, pitch, yaw));
+}
+
+/// Removes rotations that are not about the vertical from twists of the body.
+void keep_yaw(const Pose& world_from_body, std::initializer_list<Twist*> twists) {
+  const Vector3 up = world_from_body.rotation.conjugate() * Vector3::UnitZ();
+  for (Twist* const each : twists) each->tail<3>() = up * up.dot(each->tail<3>());
 }
 
 Matrix6 isotropic(double sigma_t, double sigma_r) {
@@ -72,8 +79,9 @@ Odometry simulate_odometry(const Trajectory& truth,
                       log_so3(before_from_after.rotation).norm()};
     const double sigma_t = sigma(noise.translation, noise.gain, step);
     const double sigma_r = sigma(noise.rotation, noise.gain, step);
-    const Twist error = mask.cwiseProduct(random.normal_twist(sigma_t, sigma_r));
-    const Twist bias = mask.cwiseProduct(drift_of(options.drift, before_from_after, step));
+    Twist error = mask.cwiseProduct(random.normal_twist(sigma_t, sigma_r));
+    Twist bias = mask.cwiseProduct(drift_of(options.drift, before_from_after, step));
+    if (noise.level) keep_yaw(truth[i].world_from_body, {&bias, &error});
     const Pose measured = before_from_after * exp_se3(bias) * exp_se3(error);
 
     const Pose& before = out.frames.back().world_from_body;

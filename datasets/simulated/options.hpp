@@ -30,7 +30,8 @@ struct StepVariance {
 /// With the defaults `room` drifts like ORB-SLAM2 without loop closing on fr1_room (ATE about 0.1
 /// m), and `driving` by several metres.
 struct OdometryNoise {
-  double gain = 1.0;  ///< factor on every standard deviation [-]
+  double gain = 1.0;   ///< factor on every standard deviation [-]
+  bool level = false;  ///< errors of rotation, also systematic ones, are about the vertical alone
   StepVariance translation{1e-4, 1.5e-3, 2e-4, 0.0};
   StepVariance rotation{5e-6, 1e-6, 6e-5, 0.0};
 };
@@ -111,6 +112,10 @@ void fields(SimulatedOptions& o, Visit visit) {
   OdometryNoise& n = o.noise;
   const Between variance{0, 1};
   visit("noise.gain", n.gain, "factor on all odometry standard deviations [-]", Between{0, 1e3});
+  visit("noise.level",
+        n.level,
+        "rotation errors of odometry about the vertical only, as with an IMU: roll and pitch are "
+        "exact; stated deviations are those of all axes");
   visit("noise.t.per_second",
         n.translation.per_second,
         "translation variance per time [m^2/s]",

@@ -23,8 +23,9 @@ Anchor in_plane(const Pose& plane, Anchor anchor) {
   return anchor;
 }
 
-/// Whether the anchors are away from a line (in the plane: from a point) by more than their errors.
-bool determine_frame(const std::vector<Anchor>& anchors, bool planar) {
+/// Whether the anchors are away from a line (in the plane: from a point; if level: from a vertical
+/// line) by more than their errors.
+bool determine_frame(const std::vector<Anchor>& anchors, bool planar, bool level) {
   constexpr double kClear = 3.0;
   const auto count = static_cast<double>(anchors.size());
   Vector3 mean = Vector3::Zero();
@@ -35,11 +36,12 @@ bool determine_frame(const std::vector<Anchor>& anchors, bool planar) {
   }
   Matrix3 scatter = Matrix3::Zero();
   for (const Anchor& anchor : anchors) {
-    const Vector3 d = anchor.position - mean;
+    Vector3 d = anchor.position - mean;
+    if (level) d.z() = 0.0;
     scatter += d * d.transpose() / count;
   }
   const Vector3 ascending = Eigen::SelfAdjointEigenSolver<Matrix3>(scatter).eigenvalues();
-  return (planar ? ascending[2] : ascending[1]) > kClear * kClear * variance;
+  return (planar || level ? ascending[2] : ascending[1]) > kClear * kClear * variance;
 }
 
 struct Target {
@@ -71,13 +73,13 @@ std::string anchors_fault(const Problem& problem) {
   return "anchors require edges of scale 1, but edges change the scale";
 }
 
-UsedAnchors::UsedAnchors(const Problem& problem)
-    : anchors(problem.anchors), planar(problem.planar) {
+UsedAnchors::UsedAnchors(const Problem& problem, bool is_level)
+    : anchors(problem.anchors), planar(problem.planar), level(is_level) {
   if (anchors.empty()) return;
   for (Anchor& anchor : anchors) {
     if (planar) anchor = in_plane(problem.keyframes.front().world_from_body, anchor);
   }
-  is_first_free = determine_frame(anchors, planar);
+  is_first_free = determine_frame(anchors, planar, level);
   if (!is_first_free) std::erase_if(anchors, [](const Anchor& a) { return a.keyframe == 0; });
 }
 
@@ -94,11 +96,12 @@ Pose UsedAnchors::alignment(const Trajectory& poses) const {
   }
   Matrix3 R = Matrix3::Identity();
   Vector3 t = Vector3::Zero();
-  if (planar) {
+  if (planar || level) {
     const Eigen::Matrix2Xd here = from.topRows<2>(), there = to.topRows<2>();
     const Matrix3 motion = align_points(here, there, false);
     R.topLeftCorner<2, 2>() = motion.topLeftCorner<2, 2>();
     t.head<2>() = motion.topRightCorner<2, 1>();
+    if (level) t.z() = (to.row(2) - from.row(2)).mean();
   } else {
     const Eigen::Matrix4d motion = align_points(from, to, false);
     R = motion.topLeftCorner<3, 3>();
@@ -109,15 +112,16 @@ Pose UsedAnchors::alignment(const Trajectory& poses) const {
 
 std::size_t UsedAnchors::degrees_of_freedom() const {
   const std::size_t coordinates = (planar ? 2 : 3) * anchors.size();
-  const std::size_t of_first = planar ? 3 : 6;
-  return coordinates - (is_first_free ? of_first : 0);
+  if (!is_first_free) return coordinates;
+  if (level) return coordinates - 4;
+  return coordinates - (planar ? 3 : 6);
 }
 
 void UsedAnchors::report_held_pose(Report& report) const {
   if (anchors.empty() || is_first_free) return;
   report.notes.push_back(
       std::string("the first keyframe is held, because the anchors do not determine the frame: ") +
-      (planar ? "two at different positions do" : "three that are not on a line do"));
+      (planar || level ? "two at different positions do" : "three that are not on a line do"));
 }
 
 void distribute_anchor_errors(Trajectory& poses,

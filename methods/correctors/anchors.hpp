@@ -17,17 +17,18 @@ struct UsedAnchors {
   /// Those of the problem; if it is planar, projected to the plane of the first keyframe.
   std::vector<Anchor> anchors;
   bool planar = false;
+  bool level = false;  ///< poses have a vertical z axis, see LevelledProblem
   /// The anchors determine the world frame, so that the first pose is estimated, too: their
-  /// distance from a straight line (in the plane: from their mean) exceeds three standard
-  /// deviations, rms. Otherwise the first pose is held; the anchors must be in its world frame, and
-  /// those at it have no effect.
+  /// distance from a straight line (in the plane, and the horizontal one of level poses: from their
+  /// mean) exceeds three standard deviations, rms. Otherwise the first pose is held; the anchors
+  /// must be in its world frame, and those at it have no effect.
   bool is_first_free = false;
 
-  explicit UsedAnchors(const Problem& problem);
+  explicit UsedAnchors(const Problem& problem, bool is_level = false);
 
-  /// Returns the rigid motion of the poses (in the plane: of x, y and yaw) after which the anchors
-  /// have the least squared errors, not weighted; the identity if the first pose is held. Source:
-  /// Umeyama, PAMI 1991.
+  /// Returns the rigid motion of the poses (in the plane: of x, y and yaw; level: also of z) after
+  /// which the anchors have the least squared errors, not weighted; the identity if the first pose
+  /// is held. Source: Umeyama, PAMI 1991.
   Pose alignment(const Trajectory& poses) const;
 
   /// Degrees of freedom that anchors add to those of the edges: their coordinates, minus the first

@@ -146,6 +146,7 @@ Trajectory Consensus::correct(const Problem& problem, Report& report) const {
   PoseGraphOptimizer::Options options;
   options.start = PoseGraphOptimizer::Start::chordal;
   options.covariances = options_.covariances;
+  options.gravity = options_.gravity;
   return PoseGraphOptimizer(options).correct(agreed, report);
 }
 

@@ -15,11 +15,15 @@ namespace loopbench::methods {
 /// Outlying anchors are dropped and named (consensus/anchor_judgement.hpp), after the closures are
 /// judged without anchors. If the data do not decide, the keyframes are returned unchanged.
 ///
+/// With `gravity`, roll and pitch of each keyframe are held; closures and anchors are judged with
+/// all their components.
+///
 /// Robust losses decide by the stated covariances: too large, and false closures pass; too small,
 /// and true ones are dropped. Here the odometry's deviations are those that the closures show.
 class Consensus final : public Corrector {
  public:
   struct Options {
+    bool gravity = false;
     bool covariances = false;
   };
   /// `known`: judgement of the problem that will be corrected, if it was computed before.
@@ -48,6 +52,11 @@ class Consensus final : public Corrector {
 
 template <class Visit>
 void fields(Consensus::Options& o, Visit visit) {
+  visit(
+      "gravity",
+      o.gravity,
+      "hold roll and pitch of each keyframe as given, because gravity was measured; the z axis of "
+      "the world must be vertical");
   visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
 }
 

@@ -38,6 +38,7 @@ Twist bound_of(std::span<const Edge> odometry) {
 
 double inlier_chi2(std::size_t dof) {
   if (dof == 3) return 11.345;
+  if (dof == 4) return 13.277;
   return dof == 6 ? 16.812 : 18.475;
 }
 

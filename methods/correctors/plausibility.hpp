@@ -9,7 +9,7 @@
 
 namespace loopbench::methods {
 
-/// 99 % quantile of the chi-squared distribution with 3, 6 or 7 degrees of freedom.
+/// 99 % quantile of the chi-squared distribution with 3, 4, 6 or 7 degrees of freedom.
 double inlier_chi2(std::size_t dof);
 
 /// Degrees of freedom of the residuals: `dimensions` per edge beyond a spanning tree, or 0 when

@@ -8,8 +8,9 @@
 
 #include "methods/correctors/anchors.hpp"
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/few_loops.hpp"
 #include "methods/correctors/gnc.hpp"
-#include "methods/correctors/looped_chain.hpp"
+#include "methods/correctors/gravity.hpp"
 #include "methods/correctors/plausibility.hpp"
 #include "methods/solvers/graph_covariance.hpp"
 #include "methods/solvers/initial_values.hpp"
@@ -21,6 +22,11 @@ namespace {
 using Poses = PoseGraphOptimizer::Poses;
 using Start = PoseGraphOptimizer::Start;
 
+/// Planar problems have no roll and pitch.
+bool is_level(const Problem& problem, const PoseGraphOptimizer::Options& options) {
+  return options.gravity && !problem.planar;
+}
+
 Group group_of(const Problem& problem, Poses requested, bool has_drift) {
   if (requested == Poses::se2) return Group::se2;
   if (requested == Poses::se3) return Group::se3;
@@ -30,13 +36,15 @@ Group group_of(const Problem& problem, Poses requested, bool has_drift) {
 
 std::size_t dimensions(Group group) {
   if (group == Group::se2) return 3;
+  if (group == Group::level) return 4;
   return group == Group::se3 ? 6 : 7;
 }
 
 PoseGraphSettings settings_of(const Problem& problem,
                               const PoseGraphOptimizer::Options& options,
                               const UsedAnchors& used) {
-  const Group group = group_of(problem, options.group, has_scale_drift(problem));
+  const Group group =
+      used.level ? Group::level : group_of(problem, options.group, has_scale_drift(problem));
   const double width = options.loss == RobustLoss::dcs ? inlier_chi2(dimensions(group)) : 1.0;
   return {.group = group,
           .scale_sigma = options.scale_sigma,
@@ -90,38 +98,16 @@ struct Optimisation {
   }
 };
 
-/// Replaces the poses of a chain with few loops by the minimum that the equations of its loops
-/// reach from the chordal relaxation, and adds their iterations. Gauss-Newton overestimates the
-/// curvature of such chains (16 times on KITTI 00) and takes hundreds of steps; these equations
-/// include the curvature of the loops (newton_direction()). Returns the cost at the start; 0: poses
-/// are unchanged.
-double solve_loops(const Problem& problem, std::vector<ScaledPose>& poses, int& iterations) {
-  constexpr int kFewLoops = 20;  // the time of an iteration grows with the cube
-  constexpr int kMaxIterations = 100;
-  constexpr double kConverged = 1e-12;  // relative change of the cost
-  if (!problem.anchors.empty() || !loops_fault(problem, kFewLoops).empty()) return 0.0;
-  const NoiseModel noise_model = stated_noise_model(problem);
-  std::optional<LoopedChain> chain = chordal_chain(problem, noise_model);
-  if (!chain) return 0.0;
-  const double before = chain->cost();
-  try {
-    iterations += chain->minimise(kMaxIterations, kConverged);
-  } catch (const std::runtime_error&) {  // not positive definite to rounding
-    return 0.0;
-  }
-  const Trajectory solved = chain->keyframes();
-  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].pose = solved[i].world_from_body;
-  return before;
-}
-
 /// The strategies below compute poses and weights. They return the summary of the last solve with
 /// the cost at the initial values.
 ///
 /// One solve, with any loss.
 PoseGraphSummary solve_once(Optimisation& run, Report& report) {
   double before = 0.0;
-  const bool is_rigid = run.settings.group != Group::sim3;
-  if (run.options.start == Start::chordal && is_rigid && run.settings.loss == RobustLoss::none) {
+  const Group group = run.settings.group;
+  const bool has_equations = group == Group::se2 || group == Group::se3;
+  if (run.options.start == Start::chordal && has_equations &&
+      run.settings.loss == RobustLoss::none) {
     before = report.time("loop equations",
                          [&] { return solve_loops(run.problem, run.poses, run.iterations); });
   }
@@ -213,7 +199,7 @@ PoseGraphSummary solve_graduated(Optimisation& run, Report& report) {
 Trajectory optimised(const Problem& problem,
                      const PoseGraphOptimizer::Options& options,
                      Report& report) {
-  const UsedAnchors used(problem);
+  const UsedAnchors used(problem, is_level(problem, options));
   Optimisation run{problem,
                    options,
                    settings_of(problem, options, used),
@@ -269,6 +255,10 @@ std::string PoseGraphOptimizer::why_declined(const Problem& problem) const {
     return "group is sim3, which has no anchors";
   if (options_.group == Poses::se2 && !problem.planar)
     return "group is se2, but the problem is not planar";
+  if (options_.gravity) {
+    if (std::string fault = gravity_fault(problem); !fault.empty()) return fault;
+    if (options_.group == Poses::sim3) return "group is sim3, but gravity holds rigid poses";
+  }
   if (is_calibrated(options_)) {
     if (std::string why = why_not_calibrated(problem); !why.empty()) return why;
   }
@@ -294,7 +284,14 @@ Trajectory PoseGraphOptimizer::correct(const Problem& stated, Report& report) co
     changed = std::move(scaled);
     bound_stiffness();
   }
-  return optimised(problem(), options_, report);
+  if (!options_.gravity) return optimised(problem(), options_, report);
+  if (problem().planar) {
+    report.notes.push_back("gravity has no effect: poses in a plane have no roll and pitch");
+    return optimised(problem(), options_, report);
+  }
+  const LevelledProblem levelled(problem());
+  levelled.report_tilt(report);
+  return levelled.tilted(optimised(levelled.problem(), options_, report));
 }
 
 }  // namespace loopbench::methods

@@ -28,6 +28,8 @@ namespace loopbench::methods {
 ///
 /// Anchors have no loss. The start is aligned to them if they determine the frame (anchors.hpp).
 ///
+/// With `gravity`, roll and pitch of each keyframe are those of the input (LevelledProblem).
+///
 /// Complexity: a few sparse factorisations, near linear in keyframes for chains; 10 to 30 times
 /// that for GNC. Sources: Grisetti et al., A tutorial on graph-based SLAM, 2010; Agarwal et al.,
 /// Dynamic covariance scaling, ICRA 2013; Suenderhauf and Protzel, Switchable constraints, IROS
@@ -46,14 +48,15 @@ class PoseGraphOptimizer final : public Corrector {
     double scale_sigma = 0.01;
     int max_iterations = 1000;
     double tolerance = 1e-14;
+    bool gravity = false;
     bool calibrate = false;
     bool rescale = false;  ///< old name of `calibrate`
     bool covariances = false;
   };
   explicit PoseGraphOptimizer(const Options& options) : options_(options) {}
 
-  /// Declines problems without closures, with unconnected keyframes, and non-planar ones with
-  /// SE(2).
+  /// Declines problems without closures, with unconnected keyframes, non-planar ones with SE(2),
+  /// and edges that change the scale with `gravity`.
   std::string why_declined(const Problem& problem) const override;
 
   /// `gnc` and `calibrate` know no anchors.
@@ -63,10 +66,11 @@ class PoseGraphOptimizer final : public Corrector {
 
   /// Counts: `iterations` (linear solves), `chi2_before`, `chi2` (sum of squared Mahalanobis
   /// errors; with a loss `robust_chi2`, sum of losses), without a loss `chi2_per_dof`, with
-  /// `calibrate` the factors `factor_t`, `factor_r`, `factor_closures` on deviations, and with GNC
-  /// `gnc_rounds` and `closures_kept`. With GNC and dcs the report states the rejected closures,
-  /// those with at most half of their weight. States covariances if asked (graph_covariance.hpp).
-  /// Throws std::runtime_error when the solver finds no usable solution.
+  /// `gravity` the `tilt_error` [deg], with `calibrate` the factors `factor_t`, `factor_r`,
+  /// `factor_closures` on deviations, and with GNC `gnc_rounds` and `closures_kept`. With GNC and
+  /// dcs the report states the rejected closures, those with at most half of their weight. States
+  /// covariances if asked (graph_covariance.hpp). Throws std::runtime_error when the solver finds
+  /// no usable solution.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
@@ -113,6 +117,11 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         o.tolerance,
         "convergence threshold: relative change of the cost [-]",
         GreaterThan{0.0});
+  visit(
+      "gravity",
+      o.gravity,
+      "hold roll and pitch of each keyframe as given, because gravity was measured; the z axis of "
+      "the world must be vertical");
   calibration_fields(o, visit);
   visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
 }

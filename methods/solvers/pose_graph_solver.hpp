@@ -11,8 +11,8 @@
 
 namespace loopbench::methods {
 
-/// Lie group of the poses.
-enum class Group { se2, se3, sim3 };
+/// Lie group of the poses; level: position and yaw, with a vertical z axis.
+enum class Group { se2, se3, sim3, level };
 
 /// Loss rho(x) of a closure, where x is its squared Mahalanobis error; odometry always has x.
 enum class RobustLoss {
@@ -70,9 +70,10 @@ struct WeightedEdges {
 /// with a small initial damping, analytic Jacobians, one thread; results are bit-identical between
 /// runs. Without a loss the block structure is that of `cache`, factorised by BlockCholesky; with a
 /// loss the solver is Ceres. SE(2) uses the plane of pose 0 and ignores out-of-plane components;
-/// SE(2) and SE(3) ignore scales. Each iteration is one sparse factorisation, linear in the number
-/// of poses for chains with few closures. Throws std::runtime_error when there is no usable
-/// solution, and when an information matrix is not positive definite.
+/// `level` likewise ignores roll and pitch; only Sim(3) uses scales. Each iteration is one sparse
+/// factorisation, linear in the number of poses for chains with few closures. Throws
+/// std::runtime_error when there is no usable solution, and when an information matrix is not
+/// positive definite.
 PoseGraphSummary solve_pose_graph(std::vector<ScaledPose>& poses,
                                   const WeightedEdges& edges,
                                   const PoseGraphSettings& settings,

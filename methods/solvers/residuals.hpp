@@ -68,7 +68,8 @@ inline AnchorResidual anchor_residual(const Anchor& anchor, const Pose& world_fr
 /// Index in [rho; phi] of component `i` < 6 of a twist of the group.
 template <class G>
 int twist_axis(int i) {
-  constexpr int kPlane[] = {0, 1, 5};
+  constexpr int kPlane[] = {0, 1, 5}, kLevel[] = {0, 1, 2, 5};
+  if constexpr (G::kDof == 4) return kLevel[i];
   return G::kDof == 3 ? kPlane[i] : i;
 }
 

@@ -125,6 +125,23 @@ TEST(SimulatedOdometry, VarianceGrowsWithSquaredSpeed) {
   EXPECT_NEAR(covariance(options)(3, 3), 1e-4 * 0.25 * 0.5, 1e-10);
 }
 
+TEST(SimulatedOdometry, LevelErrorsKeepRollAndPitch) {
+  SimulatedOptions options;
+  options.noise.level = true;
+  options.drift.yaw_per_second = 0.01;
+  options.drift.pitch_per_metre = 0.02;
+  const Sequence sequence = load_simulated(options, DataRoot{});
+  const Trajectory& frames = sequence.problem.frames;
+  double largest_turn = 0.0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Rotation& truth = sequence.reference[4 * i].world_from_body.rotation;
+    const Rotation error = frames[i].world_from_body.rotation * truth.conjugate();
+    EXPECT_NEAR((error * Vector3::UnitZ() - Vector3::UnitZ()).norm(), 0.0, 1e-9) << i;
+    largest_turn = std::max(largest_turn, log_so3(error).norm());
+  }
+  EXPECT_GT(largest_turn, 0.05);
+}
+
 TEST(SimulatedOdometry, TurningErrorsMoveTheEndOfTheEdge) {
   SimulatedOptions options = quiet(SimulatedPath::line);
   options.noise.rotation.per_second = 1e-2;  // 1e-3 rad^2 per step

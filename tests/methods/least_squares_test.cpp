@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "methods/solvers/groups/level.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
 #include "methods/solvers/normal_equations.hpp"
@@ -136,10 +137,11 @@ struct Graph {
 Graph random_graph(Group group) {
   constexpr std::size_t kPoses = 40;
   Random random;
-  const double out_of_plane = group == Group::se2 ? 0.0 : 1.0;
+  const double height = group == Group::se2 ? 0.0 : 1.0;
+  const double tilt = group == Group::se2 || group == Group::level ? 0.0 : 1.0;
   const auto motion = [&](double t, double r) {
-    return exp_se3(twist({random(t), random(t), out_of_plane * random(t)},
-                         {out_of_plane * random(r), out_of_plane * random(r), random(r)}));
+    return exp_se3(twist({random(t), random(t), height * random(t)},
+                         {tilt * random(r), tilt * random(r), random(r)}));
   };
   Graph out;
   std::vector<Pose> truth{Pose{}};
@@ -200,7 +202,7 @@ void expect_the_minimum_of_ceres(Group group, bool has_anchors, bool is_first_fr
 }
 
 TEST(LeastSquares, ReachesTheMinimumOfCeres) {
-  for (const Group group : {Group::se2, Group::se3, Group::sim3}) {
+  for (const Group group : {Group::se2, Group::se3, Group::sim3, Group::level}) {
     SCOPED_TRACE(static_cast<int>(group));
     expect_the_minimum_of_ceres(group, false, false);
     if (group == Group::sim3) continue;  // has no anchors
@@ -241,6 +243,7 @@ void expect_slope(Group group) {
 TEST(LeastSquares, PredictsTheDecreaseAlongItsStep) {
   expect_slope<Se2>(Group::se2);
   expect_slope<Se3>(Group::se3);
+  expect_slope<Level>(Group::level);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
-// Common tests of the three Lie groups of pose graphs.
+// Common tests of the Lie groups of pose graphs.
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "methods/solvers/groups/level.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
 #include "methods/solvers/groups/sim3.hpp"
@@ -42,7 +43,7 @@ class PoseGroup : public ::testing::Test {
 
   std::mt19937_64 random_{11};
 };
-using Groups = ::testing::Types<Se2, Se3, Sim3>;
+using Groups = ::testing::Types<Se2, Se3, Sim3, Level>;
 TYPED_TEST_SUITE(PoseGroup, Groups);
 
 TYPED_TEST(PoseGroup, LogUndoesExp) {
@@ -101,10 +102,13 @@ TYPED_TEST(PoseGroup, ResidualJacobiansAgreeWithDifferences) {
   }
 }
 
-TEST(PoseGroups, Se2AndSim3AgreeWithSe3OnTheirIntersection) {
+TEST(PoseGroups, OthersAgreeWithSe3OnTheirIntersection) {
   const Eigen::Vector3d flat(0.3, -0.2, 0.7);
   const Pose lifted = exp_se3(twist({0.3, -0.2, 0.0}, {0.0, 0.0, 0.7}));
   EXPECT_POSE_NEAR(Se2::to_scaled_pose(Se2::exp(flat)).pose, lifted, 1e-15, 1e-15);
+  const Level::Tangent level(0.3, -0.2, 0.9, 0.7);
+  const Pose risen = exp_se3(twist({0.3, -0.2, 0.9}, {0.0, 0.0, 0.7}));
+  EXPECT_POSE_NEAR(Level::to_scaled_pose(Level::exp(level)).pose, risen, 1e-15, 1e-15);
   Sim3::Tangent unscaled = Sim3::Tangent::Zero();
   unscaled.head<6>() = twist({0.3, -0.2, 0.9}, {0.4, -0.5, 0.7});
   EXPECT_POSE_NEAR(Sim3::exp(unscaled).pose, exp_se3(unscaled.head<6>()), 1e-14, 1e-14);

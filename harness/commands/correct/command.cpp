@@ -60,6 +60,10 @@ void add_correct(CLI::App& app, int& exit_code) {
                  c.trusts_loops,
                  "Correct by pose_graph with all closures, also if some contradict the others")
       ->excludes(method);
+  command->add_flag("--gravity",
+                    c.gravity,
+                    "Hold roll and pitch of each keyframe as given (visual-inertial odometry); the "
+                    "z axis of the world is vertical");
   const auto file = [&](const char* name, std::string& value, const char* help) {
     reads(*command, command->add_option(name, value, help))->type_name("FILE");
   };

@@ -144,6 +144,22 @@ std::string method_name(const CorrectArguments& a,
   return is_judged && !declines && !a.trusts_loops ? kConsensus : "pose_graph";
 }
 
+/// Sets the option `gravity` of the stages that have it. Throws InputError if none has.
+void hold_gravity(MethodChoice& choice, const Catalogue& catalogue) {
+  bool has_effect = false;
+  for (Choice& stage : choice.stages) {
+    if (is_program(stage)) continue;
+    const std::vector<OptionInfo>& options = find_method(catalogue, stage.name).options;
+    if (std::ranges::find(options, "gravity", &OptionInfo::name) == options.end()) continue;
+    stage.options["gravity"] = has_effect = true;
+  }
+  if (!has_effect) {
+    throw InputError("--gravity has no effect on " + choice.label +
+                     ", expected consensus or pose_graph");
+  }
+  choice.label += " (gravity=true)";
+}
+
 /// correct(); a method that fails on the input is an InputError.
 Correction corrected(Problem problem,
                      const std::string& name,
@@ -210,6 +226,7 @@ FigureData before_and_after(const Correction& done) {
 Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   std::optional<MethodChoice> given;  // an unknown one is an error before the data are read
   if (!a.method.empty()) given = method_without_reference(a.method, catalogue);
+  if (given && a.gravity) hold_gravity(*given, catalogue);
   Provenance provenance;
   Problem problem = load_problem(a, catalogue, &provenance);
   std::optional<ClosureCheck> check;
@@ -217,8 +234,9 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   const bool is_checked = !given || uses_closures(*given, catalogue);
   if (is_checked && !problem.closures.empty()) check = check_closures(problem);
   const std::chrono::duration<double> checked = std::chrono::steady_clock::now() - begin;
-  const MethodChoice choice =
+  MethodChoice choice =
       given ? *given : method_without_reference(method_name(a, problem, check), catalogue);
+  if (!given && a.gravity) hold_gravity(choice, catalogue);
   const bool has_measurements = !problem.closures.empty() || !problem.anchors.empty();
   if (!has_measurements && !is_graph(a) && uses_closures(choice, catalogue)) {
     throw InputError(a.estimate + ": " + choice.label +

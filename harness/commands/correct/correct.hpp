@@ -21,6 +21,7 @@ struct CorrectArguments {
   /// NAME[:option=value,...][ + NAME[:...]]; empty: consensus, or pose_graph if that does not apply
   std::string method;
   bool trusts_loops = false;  ///< without a method: pose_graph with all closures
+  bool gravity = false;       ///< option `gravity` of the method
   std::string loops;          ///< closure file or g2o graph for a trajectory; empty: none
   std::string anchors;        ///< measured positions for a trajectory; empty: none
   std::optional<double> start_equals_end = {};  ///< deviation of a closure of the ends [m]

@@ -1,6 +1,7 @@
 /// The group of the poses as a type.
 #pragma once
 
+#include "methods/solvers/groups/level.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
 #include "methods/solvers/groups/sim3.hpp"
@@ -16,6 +17,8 @@ auto visit_group(Group group, Visit visit) {
       return visit(Se2{});
     case Group::se3:
       return visit(Se3{});
+    case Group::level:
+      return visit(Level{});
     case Group::sim3:
       break;
   }
