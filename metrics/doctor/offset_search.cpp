@@ -13,6 +13,7 @@ using Eigen::Index;
 
 constexpr Index kCoarsePoints = 500;
 constexpr double kLeastCommon = 0.3;  // of the shorter file
+constexpr double kFarthest = 3.0;     // that an offset is refined by [steps]
 
 SpeedGrid coarser(const SpeedGrid& fine, Index count) {
   return {fine.begin + 0.5 * static_cast<double>(count - 1) * fine.step,
@@ -160,8 +161,10 @@ std::vector<OffsetFit> OffsetSearch::best() const {
   // Of files that agree as read, only the rest is of interest.
   const OffsetFit as_read = best_near(0.0, kWindowSteps);
   const double least_points = 0.5 * std::min(reference_.distance.mask.sum(), size());
-  if (as_read.points >= least_points && std::max(as_read.distance, as_read.angle) > kAgrees)
-    return {refined(as_read)};
+  if (as_read.points >= least_points && std::max(as_read.distance, as_read.angle) > kAgrees) {
+    // Speeds that change slowly agree far from their largest correlation, too.
+    if (const auto fit = refined(as_read)) return {*fit};
+  }
   const double least =
       kLeastCommon * std::min(a.distance.mask.sum(), b.distance.mask.sum()) * count;
   std::vector<OffsetFit> rough;
@@ -191,14 +194,17 @@ std::vector<OffsetFit> OffsetSearch::best() const {
   }
   std::ranges::sort(out, by_likelihood);
   if (out.size() > kReturned) out.resize(kReturned);
-  for (OffsetFit& each : out) each = likely(refined(each));
+  for (OffsetFit& each : out) {
+    each.deviation = kFarthest * reference_.step;
+    if (const auto fit = refined(each)) each = likely(*fit);
+  }
   std::ranges::sort(out, by_likelihood);
   return out;
 }
 
-OffsetFit OffsetSearch::refined(const OffsetFit& start) const {
+std::optional<OffsetFit> OffsetSearch::refined(const OffsetFit& start) const {
   constexpr int kRounds = 8;
-  constexpr double kConverged = 1e-4, kFarthest = 3.0;  // [steps]
+  constexpr double kConverged = 1e-4;  // [steps]
   const double first = start.offset / reference_.step + zero_lag();
   double at = first;
   OffsetEquation equation;
@@ -216,11 +222,11 @@ OffsetFit OffsetSearch::refined(const OffsetFit& start) const {
     }
     double sum = 0.0;
     for (const double part : equation.residuals) sum += part;
-    if (!(equation.slopes > 0.0)) return start;
+    if (!(equation.slopes > 0.0)) return std::nullopt;
     const double change = sum / equation.slopes;
     if (std::abs(change) < kConverged) break;
     at += std::clamp(change, -1.0, 1.0);
-    if (!(std::abs(at - first) < kFarthest)) return start;
+    if (!(std::abs(at - first) < kFarthest)) return std::nullopt;
   }
   OffsetFit out = start;
   double squares = 0.0;

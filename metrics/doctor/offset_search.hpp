@@ -11,7 +11,8 @@ namespace loopbench::metrics {
 /// How well the speeds agree at an offset of the estimate's stamps.
 struct OffsetFit {
   double offset = 0.0;      ///< to add to the estimate's stamps [s]
-  double deviation = 0.0;   ///< standard deviation [s], from the scatter of twenty parts
+  double deviation = 0.0;   ///< standard deviation [s], from the scatter of twenty parts; the
+                            ///< range of the search if that failed
   double distance = 0.0;    ///< correlation of linear speeds
   double angle = 0.0;       ///< of angular speeds; 0 without rotations
   double points = 0.0;      ///< common ones of the grids
@@ -39,7 +40,8 @@ class OffsetSearch {
                    const SpeedGrid& estimate,
                    double independent,
                    Eigen::Index lag) const;
-  OffsetFit refined(const OffsetFit& start) const;
+  /// Between the points of the grid, with its deviation; nullopt if `start` is at no maximum.
+  std::optional<OffsetFit> refined(const OffsetFit& start) const;
   double zero_lag() const { return (estimate_.begin - reference_.begin) / reference_.step; }
 
   SpeedGrid reference_, estimate_;

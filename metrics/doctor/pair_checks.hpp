@@ -15,7 +15,8 @@ inline constexpr double kLeastCorrelation = 0.6;  ///< of different recordings: 
 struct TimeOffset {
   double offset = 0.0;          ///< to add to the estimate's stamps [s]
   double deviation = 0.0;       ///< standard deviation [s]
-  double correlation = 0.0;     ///< of the speeds at the offset, mean of linear and angular speed
+  double agreement = 0.0;       ///< of the speeds: `correlation`, less for one kind of speed
+  double correlation = 0.0;     ///< at the offset: mean of linear and angular speed, or of one
   double before = 0.0;          ///< the same at offset 0; 0 without common times
   bool has_common_time = true;  ///< at offset 0
   double odds = 0.0;            ///< logarithm of those of the offset to the next likely one
@@ -28,7 +29,7 @@ double speed_correlation(const Trajectory& reference, const Trajectory& estimate
 /// (longer for sparse poses and long recordings), over all overlaps of at least three tenths of the
 /// shorter file: on a coarse grid, then refined to a fraction of a sample. The deviation is that of
 /// twenty parts, whose errors can be correlated within. nullopt if no offset explains the speeds
-/// (correlation below 0.6), or if another one is nearly as likely (1 to 20), as for equal laps.
+/// (agreement below 0.6), or if another one is nearly as likely (1 to 20), as for equal laps.
 /// O(1e6) at most.
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate);

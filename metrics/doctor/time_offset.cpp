@@ -41,6 +41,12 @@ struct SpeedScore {
     if (!is_known) return -1.0;
     return std::max({0.5 * (angle + distance), angle - kPenalty, distance - kPenalty});
   }
+
+  /// The correlation that best() evaluates.
+  double correlation() const {
+    const double mean = 0.5 * (angle + distance);
+    return std::max(0.0, best() > mean ? std::max(angle, distance) : mean);
+  }
 };
 
 /// Linear and angular speeds of both over intervals of the estimate that do not overlap, at most
@@ -155,16 +161,15 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   const OffsetFit& best = found.front();
   const OffsetFit as_read = search.at(0.0);
   const double second = found.size() > 1 ? found[1].likelihood : 0.0;
-  const auto score = [](const OffsetFit& fit) {
-    return std::max(0.0, SpeedScore{fit.angle, fit.distance, true}.best());
-  };
+  const auto score = [](const OffsetFit& fit) { return SpeedScore{fit.angle, fit.distance, true}; };
   TimeOffset out{.offset = best.offset,
                  .deviation = best.deviation,
-                 .correlation = score(best),
-                 .before = score(as_read),
+                 .agreement = std::max(0.0, score(best).best()),
+                 .correlation = score(best).correlation(),
+                 .before = score(as_read).correlation(),
                  .has_common_time = as_read.points >= 0.2 * search.size(),
                  .odds = best.likelihood - std::max(0.0, second)};
-  if (out.correlation < kLeastCorrelation || !(out.odds >= kAsLikely)) return std::nullopt;
+  if (out.agreement < kLeastCorrelation || !(out.odds >= kAsLikely)) return std::nullopt;
   return out;
 }
 
@@ -210,11 +215,13 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
     return std::nullopt;
   const double rows = std::round(found.offset / period);
   const bool is_whole = std::abs(found.offset - rows * period) < kOfInterval * period;
-  if (!has_stamps && (rows == 0.0 || !is_whole)) return std::nullopt;
+  const auto most_rows = static_cast<double>(std::max(reference.size(), estimate.size()));
+  const bool is_row = is_whole && rows != 0.0 && std::abs(rows) < most_rows;
+  if (!has_stamps && !is_row) return std::nullopt;
   const double offset = has_stamps ? found.offset : rows * period;
   const bool is_far = !found.has_common_time || size > kNear;
   if (is_far && (found.odds < kSure ||
-                 (!found.has_common_time && found.correlation < kSameCorrelation - 0.15))) {
+                 (!found.has_common_time && found.agreement < kSameCorrelation - 0.15))) {
     return std::nullopt;
   }
   double confidence = 0.5;

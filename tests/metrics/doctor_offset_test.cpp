@@ -8,8 +8,22 @@
 namespace loopbench::test::doctor_offset_test {
 namespace {
 
-/// A drive with varied speed and curves: poses at `rate` [Hz] from `begin` to `end` [s].
-Trajectory drive(double begin, double end, double rate, double noise, unsigned seed) {
+double varied_speed(double t) {
+  return 5.0 + 2.0 * std::sin(0.31 * t) + 1.5 * std::sin(0.83 * t + 0.004 * t * t);
+}
+
+/// Of a heavy vehicle: speeds that are seconds apart are nearly the same.
+double slow_speed(double t) {
+  return 8.0 + 2.0 * std::sin(0.09 * t) + 1.5 * std::sin(0.05 * t + 1.0) + std::sin(0.031 * t);
+}
+
+/// A drive with curves: poses at `rate` [Hz] from `begin` to `end` [s].
+Trajectory drive(double begin,
+                 double end,
+                 double rate,
+                 double noise,
+                 unsigned seed,
+                 double (*speed_at)(double) = varied_speed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, noise > 0.0 ? noise : 1.0);
   Trajectory out;
@@ -23,7 +37,7 @@ Trajectory drive(double begin, double end, double rate, double noise, unsigned s
       const Vector3 at(x + error(), y + error(), error());
       out.push_back({t, {exp_so3({0, 0, heading}), at}});
     }
-    const double speed = 5.0 + 2.0 * std::sin(0.31 * t) + 1.5 * std::sin(0.83 * t + 0.004 * t * t);
+    const double speed = speed_at(t);
     heading += kStep * (0.2 * std::sin(0.21 * t) + 0.1 * std::sin(0.003 * t * t));
     x += kStep * speed * std::cos(heading);
     y += kStep * speed * std::sin(heading);
@@ -54,6 +68,34 @@ TEST(OffsetOfClocks, OfNoisyPositionsIsWithinItsInterval) {
     covered += std::abs(found->offset - offset) < 2.1 * found->deviation;
   }
   EXPECT_GE(covered, 53);  // 95 % of 60 are 57; 53 has a probability of 3 %
+}
+
+/// At zero, the speeds over one second correlate by more than 0.97.
+TEST(OffsetOfClocks, OfSlowlyChangingSpeedsIsBeyondTheSearchNearZero) {
+  for (const double offset : {2.0, -2.0, 5.0}) {
+    const auto found =
+        estimate_time_offset(positions_of(drive(10.0, 320.0, 5.0, 0.02, 6, slow_speed)),
+                             shifted(drive(0.0, 330.0, 10.0, 0.02, 7, slow_speed), -offset));
+    ASSERT_TRUE(found) << offset;
+    EXPECT_GT(found->before, 0.8);
+    EXPECT_GT(found->correlation, 0.99);
+    EXPECT_NEAR(found->offset, offset, 0.1);
+    EXPECT_GT(found->deviation, 0.001);
+    EXPECT_LT(std::abs(found->offset - offset), 4.0 * found->deviation);
+  }
+}
+
+/// One file has rows without stamps, the other the time of day.
+TEST(OffsetOfClocks, OfRowsIsSmallerThanTheFiles) {
+  const Trajectory poses = drive(0.0, 60.0, 10.0, 0.02, 8);
+  const TimeOffset found{.offset = 1.6e9,
+                         .deviation = 0.01,
+                         .agreement = 0.99,
+                         .correlation = 0.99,
+                         .has_common_time = false,
+                         .odds = 100.0};
+  EXPECT_FALSE(offset_finding(found, shifted(poses, 1.6e9), poses, false));
+  EXPECT_TRUE(offset_finding(found, shifted(poses, 1.6e9), poses, true));
 }
 
 TEST(OffsetOfClocks, LeapsOfGpsTimeAreNamed) {
