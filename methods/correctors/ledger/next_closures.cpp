@@ -44,10 +44,9 @@ class Candidates {
       keyframes_.push_back(count > 1 ? i * (poses - 1) / (count - 1) : 0);
     }
     const auto columns = D * static_cast<Eigen::Index>(count);
-    Eigen::MatrixXd positions(kAxes * static_cast<Eigen::Index>(poses), columns);
     covariance_.resize(columns, columns);
-    for (std::size_t i = 0; i < count; ++i) add(i, inverse, positions);
-    gram_.noalias() = positions.transpose() * positions;
+    gram_.resize(columns, columns);
+    for (std::size_t i = 0; i < count; ++i) add(i, inverse);
     for (std::size_t k = 0; k < poses; ++k) {
       const Square block = inverse.covariance(k, k);
       variance_ += block.diagonal().template head<kAxes>().sum();
@@ -75,17 +74,22 @@ class Candidates {
  private:
   static Eigen::Index row(std::size_t i) { return D * static_cast<Eigen::Index>(i); }
 
-  void add(std::size_t i, GraphInverse<G>& inverse, Eigen::MatrixXd& positions) {
+  /// With P the rows of positions: the columns of the covariance C of candidate i, and those of
+  /// C P' P C by a second solution, so that no covariances with all poses are kept.
+  void add(std::size_t i, GraphInverse<G>& inverse) {
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(row(poses_.size()), D);
     columns.middleRows<D>(row(keyframes_[i])).setIdentity();
-    inverse.solve(columns);
+    const auto keep = [&](Eigen::MatrixXd& into) {
+      inverse.solve(columns);
+      for (std::size_t k = 0; k < keyframes_.size(); ++k) {
+        into.block<D, D>(row(k), row(i)) = columns.middleRows<D>(row(keyframes_[k]));
+      }
+    };
+    keep(covariance_);
     for (std::size_t k = 0; k < poses_.size(); ++k) {
-      positions.block<kAxes, D>(kAxes * static_cast<Eigen::Index>(k), row(i)) =
-          columns.middleRows<kAxes>(row(k));
+      columns.middleRows<D - kAxes>(row(k) + kAxes).setZero();
     }
-    for (std::size_t k = 0; k < keyframes_.size(); ++k) {
-      covariance_.block<D, D>(row(k), row(i)) = columns.middleRows<D>(row(keyframes_[k]));
-    }
+    keep(gram_);
   }
 
   void consider(std::size_t i,

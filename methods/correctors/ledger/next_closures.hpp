@@ -23,7 +23,8 @@ struct NextClosures {
 /// all positions, relative to the first pose, would be smallest. Each is as certain as the median
 /// closure of the problem. Its keyframes can have seen the same: they are at most as far apart as
 /// those of the longest closure, with two standard deviations of their distance. Requires
-/// why_no_ledger() to be empty. Throws std::runtime_error if the solver finds no solution.
+/// why_no_ledger() to be empty. Memory: a few factors, and two
+/// columns of blocks of its inverse. Throws std::runtime_error if the solver finds no solution.
 NextClosures next_closures(const Problem& problem, std::size_t count = 3);
 
 }  // namespace loopbench::methods
