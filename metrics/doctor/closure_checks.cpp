@@ -142,9 +142,10 @@ std::optional<InputFinding> check_information(const std::vector<const LoopPaths*
   constexpr double kTooLarge = 100.0, kTooSmall = 1e-4;  // drift exceeds noise
   if (loops.size() < kFewestLoops) return std::nullopt;
   const MedianFit fit(loops, chain, as_stated);
-  // One step of the odometry with a large deviation makes all direct paths certain of nothing.
+  // One step of the odometry with a large deviation makes all direct paths certain of nothing, and
+  // closures that measure some of the axes make those over closures so.
   const double found =
-      std::min(fit.odometry, fit.over_closures) < kTooSmall ? fit.over_closures : fit.odometry;
+      fit.odometry < kTooSmall ? std::max(fit.odometry, fit.over_closures) : fit.odometry;
   std::vector<double> gaps;
   for (const LoopPaths* each : loops) gaps.push_back(gap_of(each->odometry, chain));
   const bool is_exact = median_value(std::move(gaps)) < kNoNoise;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "methods/correctors/consensus/judgement_text.hpp"
+#include "methods/correctors/consensus/repeated_closures.hpp"
 #include "metrics/doctor/loop_chain.hpp"
 #include "metrics/doctor/sampling.hpp"
 
@@ -16,13 +17,14 @@ namespace {
 
 constexpr std::size_t kFewestJudged = 4;  // closures that show more than their own deviations
 
-/// Closures are sorted by their ends.
-void remove_repeated(std::vector<Edge>& closures) {
-  const auto is_same = [](const Edge& a, const Edge& b) {
-    return a.from == b.from && a.to == b.to &&
-           is_close(a.from_from_to, b.from_from_to, kFileRounding, kFileRounding);
-  };
-  closures.erase(std::unique(closures.begin(), closures.end(), is_same), closures.end());
+/// Closures that agree; those that are listed twice agree exactly, which shows nothing.
+std::size_t agreeing_once(const Problem& problem, const methods::ClosureJudgement& judgement) {
+  const std::vector<std::size_t> same = methods::consensus::repeated_closures(problem);
+  std::size_t out = 0;
+  for (std::size_t k = 0; k < same.size(); ++k) {
+    out += same[k] == k && judgement.closures[k].finding == methods::ClosureFinding::agrees;
+  }
+  return out;
 }
 
 /// Distance travelled up to each keyframe [m].
@@ -42,7 +44,6 @@ JudgedProblem::JudgedProblem(Problem problem, const methods::ClosureJudgement* k
     return;
   }
   problem_.anchors.clear();  // they are no closures
-  remove_repeated(problem_.closures);
   if (methods::why_not_judged(problem_).empty()) judgement_ = methods::judge_closures(problem_);
 }
 
@@ -50,8 +51,10 @@ bool JudgedProblem::is_as_stated() const {
   constexpr double kUsual = 3.0;      // stated deviations are mostly right within this factor
   constexpr double kNearlyAll = 0.8;  // of the closures
   // Three closures of a wrong convention can agree, with a larger deviation of their own.
-  if (!is_decided() || judgement_->agreeing < kFewestJudged || !judgement_->steps.empty())
+  if (!is_decided() || agreeing_once(problem_, *judgement_) < kFewestJudged ||
+      !judgement_->steps.empty()) {
     return false;
+  }
   const methods::EstimatedFactors& of = judgement_->factors;
   return std::max({of.translation, of.rotation, of.closures}) < kUsual &&
          static_cast<double>(judgement_->agreeing) >=
@@ -112,7 +115,7 @@ std::optional<InputFinding> JudgedProblem::step() const {
 
 std::optional<InputFinding> JudgedProblem::information() const {
   constexpr double kTooLarge = 10.0, kTooSmall = 0.01;  // drift exceeds noise
-  if (judgement_->agreeing < kFewestLoops) return std::nullopt;
+  if (agreeing_once(problem_, *judgement_) < kFewestLoops) return std::nullopt;
   const methods::EstimatedFactors& of = judgement_->factors;
   const auto is_usual = [](double factor) { return factor < kTooLarge && factor > kTooSmall; };
   // Few loops do not tell which component is wrong.

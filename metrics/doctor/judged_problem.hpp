@@ -12,8 +12,7 @@ namespace loopbench::metrics {
 /// A problem, and the judgement of its closures.
 class JudgedProblem {
  public:
-  /// `known`: judgement of this problem, if it was computed before. If it is null, closures that
-  /// are listed twice are judged once: they agree exactly, which shows nothing.
+  /// `known`: judgement of this problem, if it was computed before.
   JudgedProblem(Problem problem, const methods::ClosureJudgement* known);
 
   /// Whether the closures decide. Those of edges that change the scale are not judged.

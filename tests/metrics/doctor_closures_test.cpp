@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -146,6 +148,27 @@ TEST(DoctorOfClosures, RepeatedOrExactClosuresShowNothingAboutTheirInformation) 
     for (Edge& edge : *edges) edge.from_from_to = true_pose(exact, edge.from, edge.to);
   }
   EXPECT_THAT(closure_faults(exact), IsEmpty());
+}
+
+/// As many as `loops` lists.
+TEST(DoctorOfClosures, CountEachClosureOfTheFile) {
+  Problem problem = rounds();
+  for (int copies = 0; copies < 2; ++copies) add_false_closure(problem, 10, 110, 60);
+  const std::vector<InputFinding> found = check_closures(problem);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].value, 2.0);
+  EXPECT_THAT(found[0].evidence, HasSubstr(fmt::format("2 of {}", problem.closures.size())));
+}
+
+/// Over another closure, any tilt makes the yaw as uncertain as roll and pitch.
+TEST(DoctorOfClosures, ThatMeasureYawAloneShowNothingAboutTheirInformation) {
+  Problem problem = rounds();
+  for (Edge& edge : problem.closures) {
+    edge.from_from_to.translation.setZero();
+    edge.information.setZero();
+    edge.information.diagonal() << 1e-6, 1e-6, 1e-6, 4e-6, 4e-6, 62500;
+  }
+  EXPECT_THAT(closure_faults(problem), IsEmpty());
 }
 
 TEST(DoctorOfClosures, FewClosuresAreComparedWithTheOdometry) {
