@@ -36,15 +36,15 @@ struct TableArguments {
 };
 
 /// Half of the 95 % interval of the mean of so many values with this sample deviation, by Student's
-/// distribution.
-double half_interval(double deviation, std::size_t count) {
-  double low = 1.0, high = 100.0;
-  const auto degrees = static_cast<double>(count - 1);
+/// distribution. More than one value; a mean with unequal weights has fewer of equal weight.
+double half_interval(double deviation, double count) {
+  double low = 1.0, high = 1e6;
+  const double degrees = count - 1.0;
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
     (student_two_sided(middle, degrees) > 0.05 ? low : high) = middle;
   }
-  return low * deviation / std::sqrt(static_cast<double>(count));
+  return low * deviation / std::sqrt(count);
 }
 
 /// Replaces standard deviations by half of the intervals of the means.
@@ -52,7 +52,7 @@ void set_intervals(std::vector<Table>& tables) {
   for (Table& table : tables) {
     for (std::vector<TableCell>& line : table.lines) {
       for (TableCell& cell : line) {
-        if (cell.deviation) cell.deviation = half_interval(*cell.deviation, cell.averaged);
+        if (cell.deviation) cell.deviation = half_interval(*cell.deviation, cell.effective);
       }
     }
     format_means(table);

@@ -107,6 +107,25 @@ TEST(Pivot, AveragesOverTheRunsThatEveryMethodFinished) {
   EXPECT_NE(csv(tables).find("dense,raw,ate [m],2.5,4,2,ok,"), std::string::npos) << csv(tables);
 }
 
+/// Sequences of two runs and one: the weights are 1/4, 1/4 and 1/2.
+TEST(Pivot, DeviationsHaveTheWeightsOfTheMean) {
+  std::vector<Record> records{ate("raw", 1.0, 0), ate("raw", 3.0, 1), ate("raw", 5.0, 0)};
+  records[2].cell.edit().sequence = "other";
+  const auto cell = [&] {
+    TableSpec spec{.split = {"times"}, .show = {}, .where = {}};
+    spec.plus_minus = true;
+    return pivot(records, spec).at(0).lines.at(0).at(1);
+  };
+  EXPECT_NEAR(*cell().value, 3.5, 1e-12);
+  EXPECT_NEAR(cell().effective, 16.0 / 6.0, 1e-12);
+  EXPECT_NEAR(*cell().deviation, std::sqrt(2.75 / 0.625), 1e-12);
+  records.push_back(ate("raw", 7.0, 1));
+  records[3].cell.edit().sequence = "other";
+  EXPECT_NEAR(*cell().value, 4.0, 1e-12);
+  EXPECT_NEAR(cell().effective, 4.0, 1e-12);
+  EXPECT_NEAR(*cell().deviation, std::sqrt(20.0 / 3.0), 1e-12);
+}
+
 TEST(Pivot, HasNoMeanWithoutACommonRun) {
   const Table table = table_of(errors({{"raw", {1.0, kNone}}, {"dm", {kNone, 2.0}}}));
   EXPECT_EQ(table.lines[0][1].text, "- (1 of 2)");

@@ -174,6 +174,7 @@ TableCell mean_at(const TableNumbers& table, std::size_t row, std::size_t column
   out.is_gap = entry.is_gap;
   out.records = entry.values.size();
   out.averaged = entry.kept().size();
+  out.effective = entry.effective();
   if (entry.missing > 0) out.possible = out.records + entry.missing;
   if (!out.value) out.status = out.averaged == 0 ? kNoCommonRun : "undefined";
   return out;

@@ -20,6 +20,7 @@ struct TableCell {
   bool has_mean = false;  ///< the next members are those of a mean
   std::optional<double> value = {};
   std::optional<double> deviation = {};  ///< see Averages, if requested
+  double effective = 0.0;                ///< values of equal weight with as certain a mean
   std::size_t records = 0;               ///< records with a number (repeats, for example)
   std::size_t averaged = 0;  ///< of these, those on runs that all compared cells finished
   std::size_t possible = 0;  ///< records including failed and missing ones; 0: none is missing

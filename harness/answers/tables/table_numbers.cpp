@@ -182,10 +182,36 @@ std::optional<double> TableEntry::average() const {
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 
+std::vector<double> TableEntry::weights() const {
+  std::map<SharedText, double> counts;
+  for (const Value& one : values) counts[one.sequence] += one.is_kept ? 1.0 : 0.0;
+  const auto sequences = static_cast<double>(
+      std::ranges::count_if(counts, [](const auto& each) { return each.second > 0.0; }));
+  const double equal = 1.0 / static_cast<double>(kept().size());
+  const bool is_by_sequence = !is_gain && is_uneven();
+  std::vector<double> out;
+  for (const Value& one : values) {
+    if (!one.is_kept) continue;
+    out.push_back(is_by_sequence ? 1.0 / (sequences * counts[one.sequence]) : equal);
+  }
+  return out;
+}
+
+double TableEntry::effective() const {
+  double squares = 0.0;
+  for (const double weight : weights()) squares += weight * weight;
+  return squares > 0.0 ? 1.0 / squares : 0.0;
+}
+
 std::optional<double> TableEntry::deviation() const {
-  const std::vector<double> all = kept();
+  const std::vector<double> all = kept(), of = weights();
   if (all.size() < 2) return std::nullopt;
-  const double out = metrics::sample_deviation(all);
+  double mean = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k) mean += of[k] * all[k];
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    squares += of[k] * (all[k] - mean) * (all[k] - mean);
+  }
+  const double out = std::sqrt(squares / (1.0 - 1.0 / effective()));
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 

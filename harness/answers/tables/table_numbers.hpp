@@ -51,8 +51,17 @@ struct TableEntry {
   /// The mean, in which each sequence counts once; for gains 1 - the geometric mean ratio, over
   /// groups. nullopt if that is not a number.
   std::optional<double> average() const;
-  /// Sample standard deviation of the averaged values; nullopt for fewer than two.
+  /// Number of values of equal weight whose mean is as certain: 1 / sum of the squared weights. It
+  /// is that of the averaged values, unless each sequence counts once and they have different
+  /// numbers.
+  double effective() const;
+  /// Sample standard deviation of the averaged values, with their weights in the mean; nullopt for
+  /// fewer than two.
   std::optional<double> deviation() const;
+
+ private:
+  /// Of the averaged values in the mean, in their order; their sum is 1.
+  std::vector<double> weights() const;
 };
 
 struct PlacedRecord {
