@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -150,34 +151,32 @@ std::string printed(const EvalArguments& a, const Evaluations& all) {
   return a.csv ? csv(all.records) : printable(result_text(a, all));
 }
 
-/// Throws InputError for options without effect on errors at the end.
-void check_end_error(const EvalArguments& a) {
-  const std::pair<bool, const char*> ignored[] = {
-      {!a.plot.empty(), "--plot"},
-      {!a.report.empty(), "--report"},
-      {!a.store.empty(), "--store"},
-      {a.csv, "--csv"},
-      {!a.per_pose.empty(), "--per-pose"},
-      {a.start.has_value(), "--start"},
-      {a.end.has_value(), "--end"},
-      {a.downsample.has_value(), "--downsample"},
-      {!a.motion_filter.empty(), "--motion_filter"},
-      {!a.parts.empty(), "--parts"},
-      {!a.metrics.empty(), "--metric"},
-      {!a.relation.empty(), "--pose_relation"},
-      {!a.settings.empty(), "field of the protocol"},
-      {a.correct_scale, "--correct_scale"},
-      {!a.unit.empty(), "--unit"},
-  };
-  for (const auto& [is_given, what] : ignored) {
-    if (is_given)
-      throw InputError(
-          fmt::format("--end-error: expected no {}, which would have no effect", what));
+/// Throws InputError if an option is given that has no effect on errors at the end.
+void check_end_error(const CLI::App& command) {
+  constexpr std::array kUsed{"reference",
+                             "estimates",
+                             "--end-error",
+                             "--json",
+                             "--out",
+                             "--format",
+                             "--times",
+                             "--period",
+                             "--stamp-unit",
+                             "--repeats",
+                             "--sort",
+                             "--drop-invalid",
+                             "--no-checks"};
+  for (const CLI::Option* const option : command.get_options()) {
+    const auto is_named = [&](const char* name) { return option->check_name(name); };
+    if (option->count() == 0 || std::ranges::any_of(kUsed, is_named)) continue;
+    throw InputError(fmt::format("--end-error: expected no {}, which would have no effect",
+                                 option->get_lnames().empty()
+                                     ? "-" + option->get_snames().front()
+                                     : "--" + option->get_lnames().front()));
   }
 }
 
 int print_end_errors(const EvalArguments& a) {
-  check_end_error(a);
   std::vector<std::string> files{a.reference};
   files.insert(files.end(), a.estimates.begin(), a.estimates.end());
   write_file(a.out, printable(end_errors(files, a, a.json)));
@@ -210,7 +209,10 @@ void add_eval(CLI::App& app, int& exit_code, const Source& source) {
   auto a = std::make_shared<EvalArguments>();
   CLI::App* command = app.add_subcommand("eval", "Evaluate trajectory files against a reference");
   declare(*command, *a);
-  command->callback([a, source, &exit_code] { exit_code = eval(*a, source); });
+  command->callback([a, source, command, &exit_code] {
+    if (a->end_error) check_end_error(*command);
+    exit_code = eval(*a, source);
+  });
 }
 
 }  // namespace loopbench::harness
