@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "datasets/core/so3.hpp"
+#include "harness/commands/correct/correct.hpp"
 #include "harness/commands/eval/eval_figures.hpp"
 
 namespace loopbench::figures_test {
@@ -93,6 +94,14 @@ TEST(Figures, WithAScriptHaveAllData) {
   one.file.poses = path(0.0, 4999.0, 0.1);
   const FigureData data = trajectory_figure({one}, std::nullopt, default_trajectory_panels(), {});
   EXPECT_EQ(data.curves[0].columns.at("x").size(), 5000u);  // draw() thins it without a script
+}
+
+TEST(Figures, OfACorrectionWithAScriptHaveAllData) {
+  Correction done;
+  done.problem.keyframes = path(0.0, 4999.0, 0.1);
+  done.keyframes = path(0.0, 4999.0);
+  for (const DrawnCurve& curve : before_and_after(done).curves)
+    EXPECT_EQ(curve.columns.at("x").size(), 5000u);
 }
 
 TEST(Figures, OfATrajectoryHaveNoSpeedOfOnePose) {

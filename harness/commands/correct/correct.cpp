@@ -218,7 +218,6 @@ FigureData before_and_after(const Correction& done) {
   const Trajectory* const poses[] = {&done.problem.keyframes, &done.keyframes};
   for (std::size_t i = 0; i < out.curves.size(); ++i) {
     add_poses(out.curves[i], *poses[i], 0.0);
-    thin(out.curves[i]);
   }
   return out;
 }

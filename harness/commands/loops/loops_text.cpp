@@ -124,8 +124,9 @@ std::string text(const LoopsResult& result,
   out +=
       "odometry: distance and angle between the closure and the odometry between its keyframes\n"
       "other places: distance and angle between the closure and the solution with all closures "
-      "that agree, except those of its own place (both ends within 20 keyframes); [sd]: the same "
-      "in stated standard deviations\n"
+      "that agree, except those of its own place (both ends within 20 keyframes of those of the "
+      "place's "
+      "first closure); [sd]: the same in stated standard deviations\n"
       "without it: change of the positions [m] (rms) and decrease of chi2 if this closure is left "
       "out of the solution with all closures\n"
       "~: computed to first order from the solution with the closure; other numbers are of a new "

@@ -51,7 +51,7 @@
       const line = body.append("tbody").append("tr");
       columns.forEach(([, text], i) => line.append(i ? "td" : "th").text(text(row)));
     }
-    R.nothing(host, "place: closures whose ends are within 20 keyframes; odometry: distance and angle between the closure and the odometry between its keyframes; others: the same to the solution with the closures of other places that agree; [sd]: stated standard deviations; moves: change of the positions without the closure; chi2 drop: decrease of the cost without it.");
+    R.nothing(host, "place: closures whose ends are within 20 keyframes of those of its first closure; odometry: distance and angle between the closure and the odometry between its keyframes; others: the same to the solution with the closures of other places that agree; [sd]: stated standard deviations; moves: change of the positions without the closure; chi2 drop: decrease of the cost without it.");
   };
 
   R.follow(() => {
