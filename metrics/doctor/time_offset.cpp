@@ -188,7 +188,6 @@ std::string leap_of(double size) {
 }
 
 std::string offset_text(const TimeOffset& found, double offset, double rows, bool has_stamps) {
-  constexpr double kOfDeviation = 2.1;  // 95 % with the scatter of twenty parts
   if (!has_stamps) {
     return fmt::format("row i of the estimate belongs to row i {} {:.0f} of the reference",
                        rows > 0.0 ? "+" : "-",
@@ -196,7 +195,7 @@ std::string offset_text(const TimeOffset& found, double offset, double rows, boo
   }
   return fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s (95 %) {} the reference's{}",
                      std::abs(offset),
-                     kOfDeviation * found.deviation,
+                     found.half_interval(),
                      offset > 0.0 ? "behind" : "ahead of",
                      leap_of(std::abs(offset)));
 }
