@@ -2,7 +2,10 @@
 // (frame-000000.pose.txt).
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <system_error>
 
 #include "datasets/formats/format_registry.hpp"
@@ -41,9 +44,22 @@ NumberedFiles frame_files(const std::filesystem::path& folder) {
   return out;
 }
 
+/// Whether the first line has the four numbers of a matrix: trajectories can be named 0.txt, too.
+bool begins_with_matrix(const std::filesystem::path& file) {
+  try {
+    TextFile text(file);
+    std::istringstream words{std::string(first_line(text).text)};
+    return std::distance(std::istream_iterator<std::string>(words), {}) == 4;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 bool is_folder_of_frames(const std::filesystem::path& file) {
   std::error_code error;
-  return std::filesystem::is_directory(file, error) && !frame_files(file).empty();
+  if (!std::filesystem::is_directory(file, error)) return false;
+  const NumberedFiles files = frame_files(file);
+  return !files.empty() && begins_with_matrix(files.front().second);
 }
 
 TrajectoryFile read_frames(const std::filesystem::path& folder, const ReadOptions& options) {

@@ -275,7 +275,8 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
   if (all.errors.rotation_rate.empty()) {
     std::string names;
     for (const Length& length : wanted) names += (names.empty() ? "" : ", ") + length.text;
-    throw Undefined("no segment of the reference (" + to_text(evaluation.reference_length) +
+    throw Undefined("no segment of the reference (" +
+                    to_text(std::round(100.0 * evaluation.reference_length) / 100.0) +
                     " m) has a length of " + names);
   }
   Scores out{evaluation.protocol, {}};

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "tests/support/eval_command.hpp"
+#include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::test::eval_rows_test {
@@ -56,8 +59,40 @@ TEST(EvalRows, APathThatIsTooShortForSegmentsIsALine) {
   const std::string truth = scratch.file("gt.kitti", kitti(30, 1.0));
   EXPECT_THAT(eval({truth, truth, "--protocol=kitti"}),
               HasSubstr("note       segments: the reference has a constant orientation"));
+  std::string turning;
+  for (int i = 0; i < 30; ++i) {
+    const std::string c = std::to_string(std::cos(0.02 * i)),
+                      s = std::to_string(std::sin(0.02 * i));
+    turning += c + " 0 " + s + " " + std::to_string(i) + " 0 1 0 0 -" + s + " 0 " + c + " 0\n";
+  }
+  const std::string near = scratch.file("near.kitti", turning);
+  EXPECT_THAT(eval({near, near, "--protocol=kitti"}),
+              HasSubstr("note       segments: no segment of the reference (29.0 m) has a length of "
+                        "100 m, 200 m, "));
   const std::string far = scratch.file("far.kitti", kitti(100, 5.0));
   EXPECT_THAT(eval({far, far, "--protocol=kitti"}), Not(HasSubstr("no segment")));
+}
+
+TEST(EvalRows, AFolderOfFramesIsOneEstimate) {
+  const TemporaryFolder scratch;
+  const std::string truth = scratch.file("gt.kitti", kitti(12, 1.0));
+  const auto folder = scratch.path() / "pose";
+  std::filesystem::create_directories(folder);
+  const auto write = [&](int i, const std::string& text) {
+    std::filesystem::rename(scratch.file("x", text), folder / (std::to_string(i) + ".txt"));
+  };
+  for (int i = 0; i < 12; ++i) {
+    const std::string x = std::to_string(1.0 * i), z = std::to_string(0.01 * i * i);
+    write(i, "1 0 0 " + x + "\n0 1 0 " + z + "\n0 0 1 0\n0 0 0 1\n");
+  }
+  const Json result = eval_json({truth, folder.string(), "--align=none"});
+  EXPECT_EQ(result["pairs"], 12);
+  EXPECT_NEAR(find(result, "ate", "translation")["rmse"], 0.0, 1e-9);
+  for (int i = 0; i < 12; ++i) write(i, "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");  // runs
+  EXPECT_THAT(refusal_of<InputError>([&] {
+                eval({truth, folder.string()});
+              }),
+              HasSubstr("is a folder, expected trajectory files"));
 }
 
 TEST(EvalRows, NumbersOfFramesTakeTheTimesOfTheirRows) {

@@ -32,9 +32,18 @@ Params changes(const EvalArguments& a, const metrics::Protocol& base) {
   return out;
 }
 
-/// Rejects a folder where a file is expected.
+bool has_frames(const std::string& folder) {
+  try {
+    return detect_format(folder) == Format::frames;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Rejects a folder where a file is expected, unless it has one file per frame.
 void reject_folder(const std::string& estimate, const EvalArguments& a) {
   if (names_bag(estimate) || !std::filesystem::is_directory(estimate)) return;
+  if (has_frames(estimate)) return;
   const std::string folder = (std::filesystem::path(estimate) / "").lexically_normal().string();
   throw InputError(estimate + ": is a folder, expected trajectory files, for example `eval " +
                    a.reference + " " + folder + "*.txt`");
