@@ -101,8 +101,19 @@ int main(int argc, char** argv) {
   const auto first = static_cast<unsigned>(std::atoi(argv[2]));
   const auto cases = static_cast<unsigned>(std::atoi(argv[3]));
   Study study(argc > 4 && std::string_view(argv[4]) == "-v", argc > 5 ? argv[5] : "");
+  constexpr std::size_t kPlanted = 20, kRightPairs = 60;
   std::vector<Recording> pairs = recordings(argv[1]);
-  std::ranges::move(simulated_recordings(20), std::back_inserter(pairs));
+  std::vector<Recording> simulated = simulated_recordings(kPlanted + kRightPairs);
+  for (std::size_t i = kPlanted; i < simulated.size(); ++i) {
+    study.count("right: simulated pairs",
+                kRight,
+                simulated[i].estimate_name,
+                {},
+                findings_of(simulated[i]),
+                {});
+  }
+  simulated.resize(kPlanted);
+  std::ranges::move(simulated, std::back_inserter(pairs));
   const std::vector<NamedProblem> graphs = measured_graphs(argv[1]);
   std::vector<Findings> of_pairs, of_graphs;
   for (const Recording& r : pairs) {
