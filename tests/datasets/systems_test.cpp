@@ -1,6 +1,11 @@
 /// Files as SLAM systems and public datasets write them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <string>
+
+#include "datasets/core/so3.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "tests/datasets/scratch.hpp"
 
@@ -60,6 +65,28 @@ TEST(Systems, RtabmapExportsPosesWithIds) {
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[1].stamp, 2.0);
   EXPECT_EQ(poses[1].world_from_body.translation, Vector3(1, 2, 4));
+}
+
+/// The command that the error states converts the file.
+TEST(Systems, RotationVectorsOfArkitScenes) {
+  const TemporaryFolder scratch;
+  const Vector3 first(0.3, -1.2, 0.7);
+  const auto row = [](double stamp, const Vector3& r) {
+    return fmt::format("{} {} {} {} 4 5 6\n", stamp, r.x(), r.y(), r.z());
+  };
+  const auto file = scratch.file("room.traj", row(10.5, first) + row(11.0, Vector3::Zero()));
+  const std::string why = refusal([&] { read_trajectory(file); });
+  ASSERT_NE(why.find("room.traj:1: has 7 columns in a .traj file as of ARKitScenes"), why.npos);
+  const auto rows = scratch.path() / "rows.txt";
+  std::string command = why.substr(why.find("awk"));
+  command = command.substr(0, command.find(" > ")) + " > " + rows.string();
+  ASSERT_EQ(std::system(command.c_str()), 0) << command;
+  const Trajectory poses = read_trajectory(rows);
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0].stamp, 10.5);
+  EXPECT_LT(angle_between(poses[0].world_from_body.rotation, exp_so3(first)), 1e-9);
+  EXPECT_LT(angle_between(poses[1].world_from_body.rotation, Rotation::Identity()), 1e-9);
+  EXPECT_EQ(poses[1].world_from_body.translation, Vector3(4, 5, 6));
 }
 
 TEST(Systems, DecimalCommasAreNamed) {
