@@ -21,6 +21,8 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/pose_graph_dataset.hpp"
+#include "datasets/simulated/simulated.hpp"
+#include "methods/correctors/consensus.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/benchmarks/costs.hpp"
 #include "tests/benchmarks/guarded_inputs.hpp"
@@ -178,6 +180,37 @@ void guard_graphs(Guard& guard) {
   }
 }
 
+/// The judgement of all closures, true ones, over one solution with them.
+void guard_consensus(Guard& guard) {
+  struct Row {
+    const char* size;
+    std::int64_t keyframes, closures, laps;
+  };
+  for (const auto& [size, keyframes, closures, laps] :
+       {Row{"1e3", 1'000, 100, 5}, Row{"1e4", 10'000, 1'000, 10}}) {
+    for (const bool planar : {true, false}) {
+      const std::string row = fmt::format(
+          "consensus over pose_graph, {}, {} poses", planar ? "planar" : "spatial", size);
+      if (!guard.is_wanted(row)) continue;
+      SimulatedOptions options{.path = SimulatedPath::driving, .planar = planar};
+      options.keyframes = keyframes;
+      options.laps = laps;
+      options.closures.max = closures;
+      const Problem problem = load_simulated(options).problem;
+      const auto cost = [&](const Corrector& corrector) {
+        return test::cpu_of([&] {
+          Report report;
+          corrector.correct(problem, report);
+        });
+      };
+      const Consensus consensus({});
+      const PoseGraphOptimizer alone({.start = PoseGraphOptimizer::Start::chordal});
+      guard.add(
+          row, [&] { return cost(consensus); }, [&] { return cost(alone); });
+    }
+  }
+}
+
 /// Fitting a curve to keyframes over sampling it as often.
 void guard_smoothers(Guard& guard) {
   constexpr std::size_t kKeyframes = 2'000;
@@ -247,6 +280,7 @@ int main(int count, char** words) try {
   guard_eval(guard, programs);
   guard_stores(guard, programs);
   guard_graphs(guard);
+  guard_consensus(guard);
   guard_smoothers(guard);
   std::filesystem::remove_all(programs.folder);
   if (guard.failed() > 0)

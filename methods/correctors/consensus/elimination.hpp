@@ -3,12 +3,15 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "methods/correctors/consensus/cycle_model.hpp"
+#include "methods/solvers/panel_kernels.hpp"
 
 namespace loopbench::methods::consensus {
 
@@ -48,10 +51,12 @@ class Elimination {
     for (std::size_t a = 0; a < model.size(); ++a) {
       error_.push_back(model.rho(a));
       covariance_.push_back(model.shared(sums_, a, a) + closure_variance_ * model.own(a));
+      order_.push_back(a);
+      position_.push_back(a);
     }
   }
 
-  /// Error and covariance of a loop given those of loops().
+  /// Error and covariance of a loop given those of loops(), which it is not one of.
   const Tangent& error(std::size_t loop) const { return error_[loop]; }
   const Square& covariance(std::size_t loop) const { return covariance_[loop]; }
   ErrorDensity density(std::size_t loop) const {
@@ -68,19 +73,12 @@ class Elimination {
     const Eigen::LLT<Square> factor(covariance_[loop]);
     if (factor.info() != Eigen::Success) return false;
     log_odds_ += density(loop).log_density - model_->log_uniform();
-    const auto rows = D * static_cast<Eigen::Index>(model_->size());
-    const auto done = D * static_cast<Eigen::Index>(loops_.size());
-    if (factor_.cols() < done + D) factor_.conservativeResize(rows, 2 * done + 8 * D);
-    auto column = factor_.middleCols(done, D);
-    for (std::size_t a = 0; a < model_->size(); ++a) {
-      column.middleRows(row(a), D) = model_->shared(sums_, a, loop);
-    }
-    column.middleRows(row(loop), D) += closure_variance_ * model_->own(loop);
-    column.noalias() -= factor_.leftCols(done) * factor_.block(row(loop), 0, D, done).transpose();
-    factor.matrixU().template solveInPlace<Eigen::OnTheRight>(column);
+    add_column(loop, factor);
     const Tangent white = factor.matrixL().solve(error_[loop]);
     loops_.push_back(loop);
-    for (std::size_t a = 0; a < model_->size(); ++a) {
+    const auto column = factor_.middleCols(row(loop), D);
+    for (std::size_t k = loops_.size(); k < order_.size(); ++k) {
+      const std::size_t a = order_[k];
       const Square part = column.middleRows(row(a), D);
       error_[a] -= part * white;
       covariance_[a] -= part * part.transpose();
@@ -99,7 +97,41 @@ class Elimination {
   double closure_variance() const { return closure_variance_; }
 
  private:
-  static Eigen::Index row(std::size_t loop) { return D * static_cast<Eigen::Index>(loop); }
+  Eigen::Index row(std::size_t loop) const {
+    return D * static_cast<Eigen::Index>(position_[loop]);
+  }
+
+  /// The columns of the next loop, for the rows of those after it.
+  void add_column(std::size_t loop, const Eigen::LLT<Square>& own) {
+    const std::size_t at = loops_.size();
+    const auto rows = D * static_cast<Eigen::Index>(model_->size());
+    const auto begin = D * static_cast<Eigen::Index>(at);
+    if (factor_.cols() < begin + D) {
+      factor_.conservativeResize(rows, std::min(rows, 2 * begin + 8 * D));
+    }
+    move_to(at, loop);
+    factor_.block(begin, begin, D, D).setZero();
+    for (std::size_t k = at + 1; k < order_.size(); ++k) {
+      factor_.block(row(order_[k]), begin, D, D) = model_->shared(sums_, order_[k], loop);
+    }
+    for (Eigen::Index c = begin; c < begin + D; ++c) {
+      for (Eigen::Index k = 0; k < begin; k += D) {
+        subtract<D>(factor_.col(c).data(), factor_.col(k).data(), rows, c, rows);
+      }
+    }
+    auto below = factor_.block(begin + D, begin, rows - begin - D, D);
+    own.matrixU().template solveInPlace<Eigen::OnTheRight>(below);
+  }
+
+  /// Exchanges the rows of a loop with those at a position.
+  void move_to(std::size_t position, std::size_t loop) {
+    const std::size_t other = order_[position];
+    if (other == loop) return;
+    const auto done = D * static_cast<Eigen::Index>(loops_.size());
+    factor_.block(row(loop), 0, D, done).swap(factor_.block(row(other), 0, D, done));
+    std::swap(order_[position_[loop]], order_[position]);
+    std::swap(position_[loop], position_[other]);
+  }
 
   const CycleModel<G>* model_;
   std::vector<Square> sums_;
@@ -107,7 +139,9 @@ class Elimination {
   std::vector<Tangent> error_;
   std::vector<Square> covariance_;
   std::vector<std::size_t> loops_;
-  Eigen::MatrixXd factor_;  ///< rows of all loops, columns of loops()
+  std::vector<std::size_t> order_;     ///< of rows: loops(), then the others
+  std::vector<std::size_t> position_;  ///< of each loop in it
+  Eigen::MatrixXd factor_;             ///< rows of all loops, columns of loops()
   double log_odds_ = 0.0;
 };
 

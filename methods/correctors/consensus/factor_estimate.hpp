@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -30,7 +31,8 @@ inline double log_prior(const LogFactors& at) {
   return out;
 }
 
-/// Covariance of some loops of a model as a function of the factors.
+/// Covariance of some loops of a model as a function of the factors. Keeps the memory of a
+/// factorisation, so that one thread at a time can use it.
 class LoopLikelihood {
  public:
   template <class G>
@@ -42,7 +44,7 @@ class LoopLikelihood {
     own_.setZero(size, D);
     const auto assemble = [&](const std::vector<typename G::Square>& sums, Eigen::MatrixXd& to) {
       if (sums.empty()) return;
-      to.setZero(size, size);
+      to.resize(size, size);  // the upper triangle is not used
       for (Eigen::Index j = 0; j < size; j += D) {
         for (Eigen::Index i = j; i < size; i += D) {
           to.block<D, D>(i, j) = model.shared(
@@ -63,41 +65,61 @@ class LoopLikelihood {
   /// Log density of all errors relative to the uniform one; -infinity if the covariance is not
   /// positive definite. One Cholesky factorisation.
   double log_odds(const LogFactors& at) const {
-    const double t = std::exp(at.translation), r = std::exp(at.rotation);
-    Eigen::MatrixXd covariance = t * t * translation_ + r * r * rotation_;
-    if (mixed_.size() > 0) covariance += t * r * mixed_;
-    if (unknown_.size() > 0) covariance += unknown_;
-    const double variance = std::exp(2.0 * at.closures);
-    const Eigen::Index D = own_.cols();
-    for (Eigen::Index i = 0; i < own_.rows(); i += D) {
-      covariance.block(i, i, D, D) += variance * own_.middleRows(i, D);
-    }
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> factor(covariance);
+    set_covariance(at);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> factor(covariance_);
     if (factor.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
     const Eigen::VectorXd white = factor.matrixL().solve(rho_);
     constexpr double kLog2Pi = 1.8378770664093453;
     return -0.5 * (white.squaredNorm() + static_cast<double>(rho_.size()) * kLog2Pi) -
-           covariance.diagonal().array().log().sum() - log_uniform_;
+           covariance_.diagonal().array().log().sum() - log_uniform_;
   }
 
-  double log_posterior(const LogFactors& at) const { return log_odds(at) + log_prior(at); }
+  double log_posterior(const LogFactors& at) const {
+    const double prior = log_prior(at);
+    return std::isinf(prior) ? prior : log_odds(at) + prior;
+  }
 
  private:
+  /// The lower triangle of the covariance.
+  void set_covariance(const LogFactors& at) const {
+    const double t = std::exp(at.translation), r = std::exp(at.rotation);
+    const Eigen::Index size = rho_.size(), D = own_.cols();
+    covariance_.resize(size, size);
+    for (Eigen::Index j = 0; j < size; ++j) {
+      const Eigen::Index rows = size - j;
+      auto column = covariance_.col(j).tail(rows);
+      column = t * t * translation_.col(j).tail(rows) + r * r * rotation_.col(j).tail(rows);
+      if (mixed_.size() > 0) column += t * r * mixed_.col(j).tail(rows);
+      if (unknown_.size() > 0) column += unknown_.col(j).tail(rows);
+    }
+    const double variance = std::exp(2.0 * at.closures);
+    for (Eigen::Index i = 0; i < size; i += D) {
+      covariance_.block(i, i, D, D) += variance * own_.middleRows(i, D);
+    }
+  }
+
   double log_uniform_;
   Eigen::VectorXd rho_;
   Eigen::MatrixXd own_;  ///< blocks on the diagonal, one below the other
   Eigen::MatrixXd translation_, rotation_, mixed_, unknown_;  ///< lower triangles; empty: zero
+  mutable Eigen::MatrixXd covariance_;                        ///< then its factor
 };
 
 /// Climbs the posterior from `at`: steps of `step` along both factors of the odometry together,
 /// against each other, and along that of the closures, halved when none improves, down to `least`.
-/// On a lattice, so that rounding does not change the result.
+/// On a lattice, so that rounding does not change the result. No point is evaluated twice: what did
+/// not improve will not.
 inline LogFactors climb(const LoopLikelihood& loops, LogFactors at, double step, double least) {
   constexpr double kImproves = 1e-6;
-  constexpr std::array<std::array<double, 3>, 3> kDirections{
-      {{1.0, 1.0, 0.0}, {1.0, -1.0, 0.0}, {0.0, 0.0, 1.0}}};
+  constexpr std::array<std::array<int, 3>, 3> kDirections{{{1, 1, 0}, {1, -1, 0}, {0, 0, 1}}};
+  using Point = std::array<int, 3>;  // in steps from the first
+  Point here{};
+  std::vector<Point> seen{here};
   double best = loops.log_posterior(at);
-  std::array<double, 3> sign{1.0, 1.0, 1.0};
+  std::array<int, 3> sign{1, 1, 1};
+  const auto halve = [](Point& point) {
+    for (int& each : point) each *= 2;
+  };
   for (; step > least; step *= 0.5) {
     for (bool improved = true; improved;) {
       improved = false;
@@ -107,10 +129,15 @@ inline LogFactors climb(const LoopLikelihood& loops, LogFactors at, double step,
           const LogFactors trial{at.translation + by * kDirections[d][0],
                                  at.rotation + by * kDirections[d][1],
                                  at.closures + by * kDirections[d][2]};
-          const double value = loops.log_posterior(trial);
+          Point there = here;
+          for (std::size_t i = 0; i < there.size(); ++i) there[i] += sign[d] * kDirections[d][i];
+          const bool is_new = std::ranges::find(seen, there) == seen.end();
+          if (is_new) seen.push_back(there);
+          const double value = is_new ? loops.log_posterior(trial) : best;
           if (value > best + kImproves) {
             best = value;
             at = trial;
+            here = there;
             improved = true;
             break;
           }
@@ -118,6 +145,8 @@ inline LogFactors climb(const LoopLikelihood& loops, LogFactors at, double step,
         }
       }
     }
+    halve(here);
+    std::ranges::for_each(seen, halve);
   }
   return at;
 }

@@ -188,9 +188,9 @@ class Judge {
     core.factors = climb(some, core.factors, 0.35, 0.15);
     set_factors(core.factors);
     relinearise(core.model, core.factors, core.kept);
-    drop_outliers(core);
+    std::vector<LeftOut<G>> without = drop_outliers(core);
     if (chosen.size() == measured_.size()) {
-      classify(core.model, core.factors, core.kept, chosen);
+      classify(core.model, core.factors, core.kept, chosen, std::move(without));
       return;
     }
     full_ = reduced_chain<G>(problem_, measured_, out_.steps);
@@ -199,28 +199,33 @@ class Judge {
     drop_inconsistent<G>(problem_, full_.log_uniform, out_);
   }
 
-  /// Judges each measured closure given those kept, or the others of them. Those that are not among
-  /// `compared` closures can be kept as well.
+  /// Judges each measured closure given those kept, or the others of them, which is `without` if it
+  /// is known. Those that are not among `compared` closures can be kept as well.
   void classify(const CycleModel<G>& model,
                 const LogFactors& factors,
                 const std::vector<std::size_t>& kept,
-                const std::vector<std::size_t>& compared) {
+                const std::vector<std::size_t>& compared,
+                std::vector<LeftOut<G>> without = {}) {
     state_steps(model);
-    Elimination<G> eliminated(model, factors);
-    if (!eliminated.condition_on(kept)) return;
     std::vector<bool> is_kept(model.size(), false);
-    const JointLoops<G> joint(model, factors, kept);
-    if (!joint.is_positive()) return;
-    const std::vector<LeftOut<G>> without = joint.left_out();
+    if (without.empty()) {
+      const JointLoops<G> joint(model, factors, kept);
+      if (!joint.is_positive()) return;
+      without = joint.left_out();
+    }
+    const double closure_variance = std::exp(2.0 * factors.closures);
     for (std::size_t i = 0; i < kept.size(); ++i) {
       is_kept[kept[i]] = true;
-      judge(model, kept[i], without[i].error, without[i].covariance, eliminated);
+      judge(model, kept[i], without[i].error, without[i].covariance, closure_variance);
       out_.closures[measured_[kept[i]]].finding = ClosureFinding::agrees;
     }
+    if (kept.size() == model.size()) return;
+    Elimination<G> eliminated(model, factors);
+    if (!eliminated.condition_on(kept)) return;
     for (std::size_t a = 0; a < model.size(); ++a) {
       if (is_kept[a]) continue;
       const ErrorDensity inlier = eliminated.density(a);
-      judge(model, a, eliminated.error(a), eliminated.covariance(a), eliminated);
+      judge(model, a, eliminated.error(a), eliminated.covariance(a), closure_variance);
       JudgedClosure& closure = out_.closures[measured_[a]];
       const bool is_rest = !std::ranges::binary_search(compared, measured_[a]);
       if (is_rest && closure.log_odds > 0.0 && inlier.squared < kLargestSquared<G>) {
@@ -246,10 +251,9 @@ class Judge {
              std::size_t a,
              const typename G::Tangent& error,
              const typename G::Square& covariance,
-             const Elimination<G>& eliminated) {
+             double closure_variance) {
     JudgedClosure& closure = out_.closures[measured_[a]];
-    const double outlier =
-        outlier_density(model, a, error, covariance, eliminated.closure_variance());
+    const double outlier = outlier_density(model, a, error, covariance, closure_variance);
     closure.log_odds = normal_density(error, covariance).log_density - outlier;
     closure.finding =
         outlier > model.log_uniform() ? ClosureFinding::slipped : ClosureFinding::contradicts;

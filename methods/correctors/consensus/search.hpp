@@ -47,15 +47,16 @@ bool evaluate(Explanation<G>& of) {
 }
 
 /// Drops kept loops that are more likely outliers given the other kept ones: in each pass those
-/// whose log odds are at least half of the worst.
+/// whose log odds are at least half of the worst. Returns each of those left by the others, or
+/// nothing if that is not known.
 template <class G>
-void drop_outliers(Explanation<G>& of) {
+std::vector<LeftOut<G>> drop_outliers(Explanation<G>& of) {
   constexpr int kPasses = 6;
   const double closure_variance = std::exp(2.0 * of.factors.closures);
   for (int pass = 0; pass < kPasses && of.kept.size() > 2; ++pass) {
     const JointLoops<G> joint(of.model, of.factors, of.kept);
-    if (!joint.is_positive()) return;
-    const std::vector<LeftOut<G>> without = joint.left_out();
+    if (!joint.is_positive()) break;
+    std::vector<LeftOut<G>> without = joint.left_out();
     std::vector<double> log_odds;  // of an outlier
     for (std::size_t i = 0; i < of.kept.size(); ++i) {
       const LeftOut<G>& each = without[i];
@@ -68,9 +69,10 @@ void drop_outliers(Explanation<G>& of) {
     for (std::size_t i = 0; i < of.kept.size(); ++i) {
       if (!(log_odds[i] > limit)) rest.push_back(of.kept[i]);
     }
-    if (rest.empty() || rest.size() == of.kept.size()) return;
+    if (rest.empty() || rest.size() == of.kept.size()) return without;
     of.kept = std::move(rest);
   }
+  return {};
 }
 
 /// Factors on the odometry's deviations at which each loop alone has its expected error, in
