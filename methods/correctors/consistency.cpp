@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "datasets/core/factorisations.hpp"
-#include "methods/correctors/plausibility.hpp"
+#include "methods/correctors/chi_squared.hpp"
 
 namespace loopbench::methods {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "methods/correctors/anchors.hpp"
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/chi_squared.hpp"
 #include "methods/correctors/looped_chain.hpp"
-#include "methods/correctors/plausibility.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -96,7 +96,7 @@ Trajectory correct_rigid(const Dual::Options& options, const Problem& stated, Re
       noise_model,
       {options.max_iterations, options.tolerance, options.start == Dual::Start::automatic},
       report);
-  report_chi2(2.0 * solved.cost(), degrees_of_freedom(problem), problem, report);
+  count_chi2_per_dof(2.0 * solved.cost(), degrees_of_freedom(problem), report);
   if (options.covariances) {
     report.covariances = report.time("covariances", [&] { return solved.covariances(); });
   }
@@ -138,7 +138,7 @@ Trajectory correct_anchored(const Dual::Options& options, const Problem& stated,
   if (!is_at_rest) report.notes.push_back("the first pose was still moving when iterations ended");
   report.count("iterations", iterations);
   report.count("chi2", chi2);
-  report_chi2(chi2, degrees_of_freedom(problem) + used.degrees_of_freedom(), stated, report);
+  count_chi2_per_dof(chi2, degrees_of_freedom(problem) + used.degrees_of_freedom(), report);
   return problem.keyframes;
 }
 

@@ -57,8 +57,8 @@ class Dual final : public Corrector {
   }
 
   /// Counts: `iterations`, `chi2_before`, `chi2` (the sum above), `chi2_per_dof`,
-  /// and with `calibrate` the factors `factor_t`, `factor_r`, `factor_closures`. Notes:
-  /// implausible chi2, two minima. Throws std::runtime_error when the cost is not finite.
+  /// and with `calibrate` the factors `factor_t`, `factor_r`, `factor_closures`. Note:
+  /// two minima. Throws std::runtime_error when the cost is not finite.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:

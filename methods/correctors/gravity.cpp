@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/plausibility.hpp"
 
 namespace loopbench::methods {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/chi_squared.hpp"
 #include "methods/correctors/looped_chain.hpp"
-#include "methods/correctors/plausibility.hpp"
 #include "methods/solvers/initial_values.hpp"
 
 namespace loopbench::methods {
@@ -38,9 +38,9 @@ LoopedChain lowest_minimum(const Problem& problem,
   report.count("chi2_before", 2.0 * first.cost());
   if (!std::isfinite(first.cost())) throw std::runtime_error("dual: the cost is not finite");
   int iterations = first.minimise(settings.max_iterations, settings.tolerance);
-  const bool is_implausible = is_too_large(2.0 * first.cost(), degrees_of_freedom(problem));
+  const bool may_be_lower = is_unlikely(2.0 * first.cost(), degrees_of_freedom(problem));
   std::optional<LoopedChain> second =
-      settings.tries_chordal && is_implausible ? chordal_chain(problem, noise_model) : std::nullopt;
+      settings.tries_chordal && may_be_lower ? chordal_chain(problem, noise_model) : std::nullopt;
   if (second) iterations += second->minimise(settings.max_iterations, settings.tolerance);
   const bool is_lower = second && second->cost() < first.cost() * (1.0 - kOtherMinimum);
   if (is_lower) {

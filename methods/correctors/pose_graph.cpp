@@ -8,10 +8,11 @@
 
 #include "methods/correctors/anchors.hpp"
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/chi_squared.hpp"
 #include "methods/correctors/few_loops.hpp"
 #include "methods/correctors/gnc.hpp"
 #include "methods/correctors/gravity.hpp"
-#include "methods/correctors/plausibility.hpp"
+#include "methods/correctors/stiffness.hpp"
 #include "methods/solvers/graph_covariance.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
@@ -221,7 +222,7 @@ Trajectory optimised(const Problem& problem,
     const std::size_t edges = problem.odometry.size() + kept_count(run.weights);
     const std::size_t dof =
         degrees_of_freedom(problem.keyframes.size(), edges, dimensions(run.settings.group));
-    report_chi2(2.0 * summary.cost, dof + used.degrees_of_freedom(), problem, report);
+    count_chi2_per_dof(2.0 * summary.cost, dof + used.degrees_of_freedom(), report);
   }
   if (is_dcs) {
     const std::vector<double> weights = dcs_weights(run);

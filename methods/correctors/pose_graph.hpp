@@ -24,7 +24,7 @@ namespace loopbench::methods {
 /// With complete odometry, GNC starts from the largest consistent set of closures (solve_gnc()): a
 /// closure's own information does not describe the odometry drift between its keyframes, so
 /// starting from all closures rejects true closures where drift is large. Closures that are stated
-/// as almost exact are solved with bounded information (plausibility.hpp).
+/// as almost exact are solved with bounded information (stiffness.hpp).
 ///
 /// Anchors have no loss. The start is aligned to them if they determine the frame (anchors.hpp).
 ///

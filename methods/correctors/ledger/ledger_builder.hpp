@@ -14,7 +14,7 @@
 #include "methods/correctors/ledger/ledger_verdict.hpp"
 #include "methods/correctors/ledger/odometry_errors.hpp"
 #include "methods/correctors/ledger/solution.hpp"
-#include "methods/correctors/plausibility.hpp"
+#include "methods/correctors/stiffness.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "methods/solvers/left_out_parts.hpp"
 

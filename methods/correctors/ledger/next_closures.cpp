@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "methods/correctors/ledger/solution.hpp"
-#include "methods/correctors/plausibility.hpp"
+#include "methods/correctors/stiffness.hpp"
 #include "methods/solvers/graph_inverse.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
