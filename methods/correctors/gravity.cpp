@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/chi_squared.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -85,7 +86,7 @@ void LevelledProblem::report_tilt(Report& report) const {
   const double rms = kDegrees * std::sqrt(squared_tilt_ / count);
   report.count("tilt_error", rms);
   const std::size_t dof = 2 * closures;
-  if (!is_too_large(chi2_, dof) || chi2_ < kFar * static_cast<double>(dof)) return;
+  if (!is_unlikely(chi2_, dof) || chi2_ < kFar * static_cast<double>(dof)) return;
   report.notes.push_back(fmt::format(
       "the closures differ from the held roll and pitch by {:.2g} degrees (rms), their deviations "
       "are {:.2g}: roll and pitch are not as accurate as gravity states, or the z axis of the "
