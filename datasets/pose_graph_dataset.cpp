@@ -252,6 +252,10 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
         fmt::format("priors are anchors ({}): their positions are used, their rotations are not",
                     graph.priors.size()));
   }
+  for (const auto& [tag, count] : graph.skipped) {
+    sequence.provenance.notes.push_back(fmt::format(
+        "{} {} {} not used", count, tag, count == 1 ? "measurement is" : "measurements are"));
+  }
   if (graph.scale_information > 0) {
     sequence.provenance.notes.push_back(fmt::format(
         "the information of the scale in {} edges is not used: scales have no weight of their own",

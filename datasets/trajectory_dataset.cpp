@@ -164,6 +164,14 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   const PlanarChoice plane = choose_planar(o.planar, parts_of(in));
   if (plane.planar) in.normal = plane.normal;
   if (!plane.note.empty()) sequence.provenance.notes.push_back(plane.note);
+  const Trajectory& tracked = in.frames.empty() ? in.estimate : in.frames;
+  if (const auto moved = move_to_poses(in.closures, in.estimate, tracked, o.reach); moved > 0) {
+    sequence.provenance.notes.push_back(
+        fmt::format("{} of {} closures are at stamps between poses of the estimate: moved to the "
+                    "nearest one by the motion of the tracked poses",
+                    moved,
+                    in.closures.size()));
+  }
   std::vector<std::size_t> false_closures;
   sequence.problem = derive_problem(in, o, &false_closures);
   if (in.anchors) {

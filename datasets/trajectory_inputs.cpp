@@ -7,6 +7,7 @@
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/columns/stamp_unit.hpp"
 #include "datasets/core/disabled_options.hpp"
+#include "datasets/formats/json_graph.hpp"
 
 namespace loopbench {
 namespace {
@@ -148,7 +149,7 @@ TrajectoryInputs read_inputs(const TrajectoryOptions& o,
   in.reference = to_estimate_body(std::move(in.reference), o.reference_body);
   if (o.closures == ClosureSource::file) {
     const std::filesystem::path file = reader.open(o.closures_file, "closures.file");
-    if (file.extension() == ".g2o") {
+    if (file.extension() == ".g2o" || is_json_graph(file)) {
       in.graph_closures = read_graph_closures(file, in.estimate);
     } else {
       in.closures = read_closure_file(file, o.closures_noise);

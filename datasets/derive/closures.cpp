@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -189,6 +191,31 @@ std::vector<StampedClosure> read_closure_file(const std::filesystem::path& path,
   return out;
 }
 
+std::size_t move_to_poses(std::vector<StampedClosure>& closures,
+                          const Trajectory& poses,
+                          const Trajectory& run,
+                          const InterpolationLimits& reach) {
+  constexpr double kSame = 1e-4;  // [s]; stamps are printed with four digits at least
+  const auto move = [&](double& stamp, Pose& pose_from_measured) {
+    const auto nearest = nearest_pose(poses, stamp, std::numeric_limits<double>::infinity());
+    if (!nearest) return false;
+    const double there = poses[*nearest].stamp;
+    if (std::abs(there - stamp) <= kSame) return false;
+    const auto tracked = poses_at(run, {there, stamp}, reach);
+    if (!tracked[0] || !tracked[1]) return false;
+    pose_from_measured = normalized(tracked[0]->inverse() * *tracked[1]);
+    stamp = there;
+    return true;
+  };
+  std::size_t moved = 0;
+  for (StampedClosure& each : closures) {
+    const bool is_from_moved = move(each.stamp_from, each.pose_from_measured_from);
+    const bool is_to_moved = move(each.stamp_to, each.pose_from_measured_to);
+    moved += is_from_moved || is_to_moved ? 1 : 0;
+  }
+  return moved;
+}
+
 std::vector<Edge> as_edges(const std::vector<StampedClosure>& closures,
                            const Trajectory& poses,
                            double max_diff,
@@ -210,6 +237,15 @@ std::vector<Edge> as_edges(const std::vector<StampedClosure>& closures,
               pose_at(closure.stamp_to),
               closure.from_from_to,
               isotropic_information(sigma_t * sigma_t, sigma_r * sigma_r)};
+    const Pose& to = closure.pose_from_measured_to;
+    if (to.translation != Vector3::Zero() || to.rotation.vec() != Vector3::Zero()) {
+      // Z exp(e) B^-1 = Z B^-1 exp(Ad(B) e)
+      const Matrix6 A = adjoint(to.inverse());
+      const Matrix6 moved = A.transpose() * edge.information * A;
+      edge.information = 0.5 * (moved + moved.transpose());
+    }
+    edge.from_from_to =
+        normalized(closure.pose_from_measured_from * edge.from_from_to * to.inverse());
     if (edge.from == edge.to) {
       throw input_error(file.string(),
                         closure.line,
@@ -217,8 +253,8 @@ std::vector<Edge> as_edges(const std::vector<StampedClosure>& closures,
     }
     if (edge.from > edge.to) {
       std::swap(edge.from, edge.to);
+      edge.information = information_of_inverse(edge.from_from_to, edge.information);
       edge.from_from_to = edge.from_from_to.inverse();
-      edge.information = information_of_inverse(closure.from_from_to, edge.information);
     }
     edges.push_back(edge);
   }

@@ -69,6 +69,8 @@ struct StampedClosure {
   Pose from_from_to;
   ClosureNoise noise;
   std::size_t line = 0;  ///< line number in the file
+  /// The measured bodies in the frames of the poses at the stamps, see move_to_poses().
+  Pose pose_from_measured_from = {}, pose_from_measured_to = {};
 };
 
 /// Reads one closure per line: `stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r]` in [s],
@@ -77,6 +79,15 @@ struct StampedClosure {
 /// use `noise`. Throws InputError `file:line: what`. O(size of the file).
 std::vector<StampedClosure> read_closure_file(const std::filesystem::path& file,
                                               const ClosureNoise& noise);
+
+/// Moves ends that are between two poses to the nearest pose in time, by the motion of `run` (all
+/// tracked poses) between the two times, where `reach` allows its interpolation. The stamps become
+/// those of the poses. The error of that motion is not added to the noise. Returns the number of
+/// closures that were moved. O(closures log poses).
+std::size_t move_to_poses(std::vector<StampedClosure>& closures,
+                          const Trajectory& poses,
+                          const Trajectory& run,
+                          const InterpolationLimits& reach);
 
 /// Converts closures to edges between the nearest poses in time, at most `max_diff` [s] away. Edges
 /// have from < to and are sorted by (to, from). Throws InputError `file:line: what` if there is no

@@ -13,6 +13,7 @@ std::span<const FormatEntry> formats() {
                               npy_format(),
                               json_format(),
                               g2o_format(),
+                              json_graph_format(),
                               log_format(),
                               kitti_format(),
                               euroc_format(),

@@ -49,6 +49,7 @@ const FormatEntry& entry_of(Format format);
 
 FormatEntry bag_format();
 FormatEntry g2o_format();
+FormatEntry json_graph_format();  ///< also of format g2o, behind g2o_format()
 FormatEntry kitti_format();
 FormatEntry euroc_format();
 FormatEntry tum_format();

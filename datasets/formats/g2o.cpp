@@ -10,6 +10,7 @@
 #include "datasets/files/text_writer.hpp"
 #include "datasets/formats/g2o_information.hpp"
 #include "datasets/formats/g2o_records.hpp"
+#include "datasets/formats/json_graph.hpp"
 
 namespace loopbench {
 namespace {
@@ -71,6 +72,7 @@ void invert_edge(const TextFile& file, std::size_t line, Edge& edge) {
 }  // namespace
 
 PoseGraph read_g2o(const std::filesystem::path& path, const InformationRules& rules) {
+  if (is_json_graph(path)) return read_json_graph(path, rules);
   TextFile file(path);
   return read_g2o(file, rules);
 }
@@ -94,7 +96,9 @@ PoseGraph read_g2o(TextFile& file, const InformationRules& rules) {
     }
     out.priors.push_back(prior.anchor);
   }
+  out.skipped = std::move(records.skipped);
   for (const EdgeEnds& fixed : records.fixed) {
+    if (std::ranges::find(records.planes, fixed.from) != records.planes.end()) continue;
     out.fixed.push_back(index_of(file, out, fixed.from, fixed.line, "FIX"));
   }
   std::ranges::sort(out.fixed);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct PoseGraph {
   std::size_t scale_information = 0;    ///< edges with information of the scale, which is not used
   std::vector<std::size_t> fixed = {};  ///< vertices of FIX lines, ascending
   std::vector<Anchor> priors = {};      ///< positions of PRIOR lines; Anchor::keyframe is a vertex
+  std::map<std::string, std::size_t> skipped = {};  ///< number of lines that are not used, by tag
 };
 
 /// Convention of the rotation block of the information of :QUAT edges. g2o minimises the vector
@@ -64,8 +66,11 @@ struct InformationRules {
 /// - EDGE_SE3_PRIOR, EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, EDGE_SE2_XYPRIOR and EDGE_POINTXYZ measure
 ///   the position of a vertex; the covariance is the marginal one if there is a rotation.
 ///   EDGE_SE3_PRIOR measures that of the sensor of the PARAMS_SE3OFFSET line that it names, if any.
+/// - EDGE_SE3_PRIORXY, EDGE_SE3_PRIORVEC, EDGE_SE3_PRIORQUAT and planes are counted in `skipped`.
 /// - Other PARAMS lines and comments are skipped; other tags are rejected.
 /// Throws InputError `file:line: what`. O(n log n) in the number of lines.
+///
+/// Graphs in JSON are read, too (json_graph.hpp).
 PoseGraph read_g2o(const std::filesystem::path& file, const InformationRules& rules = {});
 PoseGraph read_g2o(TextFile& file, const InformationRules& rules);
 

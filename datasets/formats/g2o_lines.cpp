@@ -165,13 +165,6 @@ const PoseTag& find_pose_tag(const TextFile& file, const Line& line, std::string
     if (tag.word == word) return tag;
   }
   reject_switch(file, line, word);
-  if (word.find("PLANE") != std::string_view::npos) {
-    throw file.error(
-        line.number,
-        "found " + std::string(word) +
-            ", a plane as in dumps of hdl_graph_slam: expected a graph of poses (remove the lines "
-            "VERTEX_PLANE and EDGE_SE3_PLANE, and FIX of the id of a plane)");
-  }
   std::string known = "FIX";
   for (const PoseTag& tag : kPoseTags) known.append(", ").append(tag.word);
   for (const PriorTag& tag : kPriorTags) known.append(", ").append(tag.word);

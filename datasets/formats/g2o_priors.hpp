@@ -47,6 +47,15 @@ inline constexpr std::array kPriorTags{
         "EDGE_SE3_PRIORXYZ", 3, false, 11, "11: EDGE_SE3_PRIORXYZ id x y z and 6 of information"},
 };
 
+/// Lines of hdl_graph_slam that measure no position of three coordinates, and its planes: they are
+/// counted and not used.
+inline bool is_unused_tag(std::string_view word) {
+  constexpr std::array<std::string_view, 3> kUnused{
+      "EDGE_SE3_PRIORXY", "EDGE_SE3_PRIORVEC", "EDGE_SE3_PRIORQUAT"};
+  return std::ranges::find(kUnused, word) != kUnused.end() || word.starts_with("VERTEX_PLANE") ||
+         word.starts_with("EDGE_SE3_PLANE") || word.starts_with("EDGE_PLANE");
+}
+
 /// Reads a line whose tag is `word`; nullopt if that is no prior. Throws InputError for a wrong
 /// number of columns and information of the position that is not positive definite. O(1).
 inline std::optional<PriorRecord> read_prior(const TextFile& file,

@@ -30,6 +30,12 @@ Records read_g2o_part(TextFile& file, const InformationRules& rules) {
       out.priors.push_back(std::move(*prior));
       continue;
     }
+    if (is_unused_tag(word)) {
+      ++out.skipped[std::string(word)];
+      Columns columns(file, line);
+      if (columns.word() == "VERTEX_PLANE") out.planes.push_back(columns.integer("id"));
+      continue;
+    }
     const PoseTag& tag = find_pose_tag(file, line, word);
     if (first == nullptr) {
       first = &tag;
@@ -78,6 +84,8 @@ Records read_records(TextFile& file, const InformationRules& rules) {
     append(out.fixed, std::move(more.fixed));
     append(out.priors, std::move(more.priors));
     append(out.offsets, std::move(more.offsets));
+    append(out.planes, std::move(more.planes));
+    for (const auto& [tag, count] : more.skipped) out.skipped[tag] += count;
     out.lines += more.lines;
     out.altered += more.altered;
     out.scale_information += more.scale_information;

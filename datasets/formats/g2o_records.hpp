@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "datasets/columns/text_file.hpp"
@@ -44,9 +46,12 @@ struct Records {
   std::size_t lines = 0;              ///< of the part of the file
   std::size_t altered = 0;            ///< edges whose information was not positive definite
   std::size_t scale_information = 0;  ///< edges with information of the scale, which is not used
+  std::map<std::string, std::size_t> skipped = {};  ///< number of lines by tag, see is_unused_tag()
+  std::vector<std::int64_t> planes = {};            ///< ids of VERTEX_PLANE lines
 };
 
 /// Reads every VERTEX, EDGE, PRIOR, PARAMS_SE3OFFSET and FIX line; other PARAMS lines are skipped.
+/// Planes and priors that are not used are counted.
 /// Throws InputError for unknown tags, a wrong number of columns, mixed kinds, quaternions that are
 /// not unit, scales that are not positive, information that `rules` cannot make positive definite,
 /// and edges from a vertex to itself.

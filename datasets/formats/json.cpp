@@ -8,6 +8,7 @@
 #include "datasets/columns/stamps.hpp"
 #include "datasets/compressed/input_file.hpp"
 #include "datasets/formats/format_registry.hpp"
+#include "datasets/formats/json_graph.hpp"
 #include "datasets/formats/matrix_list.hpp"
 
 namespace loopbench {
@@ -19,6 +20,7 @@ constexpr std::size_t kLargestJson = std::size_t{1} << 30;  // [bytes]
 
 /// Whether the file begins as an object or a list.
 bool is_json(const std::filesystem::path& file) {
+  if (is_json_graph(file)) return false;
   const OpenedFile in = open_input(file);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> handle(std::fopen(in.path.c_str(), "rb"),
                                                                std::fclose);

@@ -52,7 +52,8 @@ TrajectoryFile read_text_file(const std::filesystem::path& path, const ReadOptio
 /// The reader of a file that is not text; null: it is text.
 const FormatEntry* file_format(const std::filesystem::path& path, Format stated) {
   if (names_bag(path.string())) return &entry_of(Format::bag);
-  if (stated == Format::automatic) return detect_file(path);
+  const FormatEntry* const found = detect_file(path);
+  if (stated == Format::automatic || (found != nullptr && found->format == stated)) return found;
   const FormatEntry& entry = entry_of(stated);
   return entry.read_file == nullptr ? nullptr : &entry;
 }

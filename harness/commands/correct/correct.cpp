@@ -10,6 +10,8 @@
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/planar.hpp"
 #include "datasets/derive/problem_graph.hpp"
+#include "datasets/files/text_writer.hpp"
+#include "datasets/formats/g2o_prior_lines.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "harness/commands/loops/loops.hpp"
 #include "harness/sweep/catalogue/external_methods.hpp"
@@ -74,7 +76,8 @@ void write(const CorrectArguments& a, const Correction& done) {
     if (a.format != Format::tum) return write_trajectory(a.out, file, a.format);
     return write_tum(a.out, file, {"corrected by loopbench: " + done.method});
   }
-  if (!done.problem.anchors.empty()) {
+  const bool has_anchors = !done.problem.anchors.empty();
+  if (has_anchors && !is_graph(a)) {
     throw InputError(a.out + ": a g2o graph contains no anchors, expected another format");
   }
   if (a.dense || !a.at.empty()) {
@@ -91,7 +94,13 @@ void write(const CorrectArguments& a, const Correction& done) {
   const InformationRules any{.indefinite = IndefiniteInformation::project};
   graph.planar =  // the lines of the input
       graph.planar && is_graph(a) && read_g2o(a.estimate, any).planar;
-  write_g2o(a.out, graph);
+  TextWriter out = g2o_text(graph);
+  if (has_anchors) {
+    for (const std::string& line : prior_lines(a.estimate, graph, done.problem.anchors)) {
+      out.word(line).end_line();
+    }
+  }
+  out.save(a.out);
 }
 
 /// Moves the result so that the first vertex of FIX lines keeps its pose; methods hold keyframe 0.

@@ -103,9 +103,10 @@ FigureData before_and_after(const Correction& correction);
 /// Object with keys estimate, method, keyframes, odometry, closures, anchors, rejected,
 /// rejected_closures [{from, to}] by ids or stamps, seconds, before, after {translation_rms,
 /// translation_max, rotation_rms, rotation_max, chi2_odometry, chi2_closures, and with anchors
-/// anchor_rms, anchor_max} or null, counts {name: value}, phases [{name, seconds}], notes [text],
-/// verdict (check_sentence() or null), closure_check (closure_check.hpp, or null), output {file,
-/// poses, outside}. `rejected` and its list are null if the method rejects none.
+/// anchor_rms, anchor_max (of all anchors, also dropped ones)} or null, counts {name: value},
+/// phases [{name, seconds}], notes [text], verdict (check_sentence() or null), closure_check
+/// (closure_check.hpp, or null), output {file, poses, outside}. `rejected` and its list are null if
+/// the method rejects none.
 std::string json(const Correction& correction);
 
 }  // namespace loopbench::harness

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string_view>
 
 #include "datasets/core/closure_places.hpp"
 #include "harness/commands/correct/correct.hpp"
@@ -52,6 +53,19 @@ std::optional<std::vector<Residual>> residuals(const Problem& problem,
     why = error.what();
   }
   return std::nullopt;
+}
+
+/// Anchors that a method dropped are in the residuals, too: their titles state it.
+void name_all_anchors(const Correction& done, std::optional<std::vector<Residual>>& residuals) {
+  const auto all = static_cast<double>(done.problem.anchors.size());
+  const bool are_dropped = std::ranges::any_of(done.report.counts, [&](const methods::Count& each) {
+    return each.name == "anchors_kept" && each.value < all;
+  });
+  if (!are_dropped || !residuals) return;
+  for (Residual& each : *residuals) {
+    if (std::string_view(each.key) == "anchor_rms") each.title = "all anchors, rms [m]";
+    if (std::string_view(each.key) == "anchor_max") each.title = "all anchors, max [m]";
+  }
 }
 
 std::optional<std::size_t> rejected_closures(const Correction& done) {
@@ -121,6 +135,7 @@ Correction correct(Problem problem,
   const Problem kept = keeps_some ? without_closures(out.problem, rejected) : out.problem;
   out.before = residuals(kept, out.problem.keyframes, out.why_no_residuals);
   out.after = residuals(kept, out.keyframes, out.why_no_residuals);
+  for (auto* const residuals : {&out.before, &out.after}) name_all_anchors(out, *residuals);
   out.rejected = rejected_closures(out);
   std::erase_if(out.report.counts, [](const methods::Count& c) {  // of the solver's start
     return c.name == "chi2_before" || c.name == "robust_chi2_before";

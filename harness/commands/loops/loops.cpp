@@ -10,6 +10,8 @@
 #include "datasets/core/error.hpp"
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/files/text_writer.hpp"
+#include "datasets/formats/formats.hpp"
+#include "datasets/formats/g2o_prior_lines.hpp"
 
 namespace loopbench::harness {
 
@@ -50,7 +52,9 @@ void write_repaired(const LoopsResult& result,
   if (!ledger.judgement || !ledger.judgement->is_decided()) {
     throw fail("which closures are right is not decided");
   }
-  if (!result.problem.anchors.empty()) throw fail("a g2o graph contains no anchors");
+  const bool has_anchors = !result.problem.anchors.empty();
+  const bool has_lines = detect_format(result.estimate) == Format::g2o;
+  if (has_anchors && !has_lines) throw fail("a g2o graph contains no anchors of other files");
   const Problem trusted = methods::trusted_problem(result.problem, ledger);
   PoseGraph graph = problem_graph(trusted, result.problem.keyframes, result.problem.ids);
   std::erase_if(graph.edges, [&](const Edge& edge) {
@@ -61,6 +65,11 @@ void write_repaired(const LoopsResult& result,
   });
   graph.fixed = provenance.fixed;
   TextWriter out = g2o_text(graph);
+  if (has_anchors) {
+    for (const std::string& line : prior_lines(result.estimate, graph, result.problem.anchors)) {
+      out.word(line).end_line();
+    }
+  }
   for (std::size_t rank = 0; rank < ledger.suspects.size(); ++rank) {
     if (std::string_view(judgement(result, rank)) == "agrees") continue;
     out.comment("dropped: " + closure_name(result.problem, ledger.suspects[rank]));

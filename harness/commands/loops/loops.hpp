@@ -35,8 +35,9 @@ std::string text(const LoopsResult& result,
 std::string json(const LoopsResult& result, const std::optional<methods::NextClosures>& next = {});
 
 /// Writes the graph with the closures that agree and with freed steps, whose information is lower;
-/// comments name them and the closures that were dropped. Throws InputError if nothing is decided,
-/// or if there are anchors, and if the file cannot be written.
+/// comments name them and the closures that were dropped. Lines of priors are those of the input.
+/// Throws InputError if nothing is decided, or if there are anchors of another file, and if the
+/// file cannot be written.
 void write_repaired(const LoopsResult& result,
                     const Provenance& provenance,
                     const std::filesystem::path& file);
