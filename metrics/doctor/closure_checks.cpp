@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -136,20 +137,31 @@ InputFinding contradiction(const std::vector<CheckedClosure>& found,
           static_cast<double>(found.size())};
 }
 
+/// Whether a closure measures some axes only, as one of yaw. Over another such closure, any tilt
+/// makes all axes as uncertain as the open ones.
+bool leaves_axes_open(const Edge& closure) {
+  constexpr double kOpen = 1e-8;  // of the largest information
+  const Eigen::Matrix<double, 6, 1> values =
+      closure.information.selfadjointView<Eigen::Lower>().eigenvalues();
+  return values.minCoeff() < kOpen * values.maxCoeff();
+}
+
 /// The median chi-squared over the most certain paths. O(closures).
 std::optional<InputFinding> check_information(const std::vector<const LoopPaths*>& loops,
                                               const Chain& chain) {
   constexpr double kTooLarge = 100.0, kTooSmall = 1e-4;  // drift exceeds noise
   if (loops.size() < kFewestLoops) return std::nullopt;
   const MedianFit fit(loops, chain, as_stated);
-  // One step of the odometry with a large deviation makes all direct paths certain of nothing, and
-  // closures that measure some of the axes make those over closures so.
+  // One step of the odometry with a large deviation makes all direct paths certain of nothing.
   const double found =
-      fit.odometry < kTooSmall ? std::max(fit.odometry, fit.over_closures) : fit.odometry;
+      std::min(fit.odometry, fit.over_closures) < kTooSmall ? fit.over_closures : fit.odometry;
   std::vector<double> gaps;
   for (const LoopPaths* each : loops) gaps.push_back(gap_of(each->odometry, chain));
   const bool is_exact = median_value(std::move(gaps)) < kNoNoise;
-  if (is_exact || (found < kTooLarge && found > kTooSmall)) return std::nullopt;
+  const auto open = std::ranges::count_if(
+      loops, [](const LoopPaths* each) { return leaves_axes_open(*each->odometry.closure); });
+  const bool is_small = found < kTooSmall && 2 * open < std::ssize(loops);
+  if (is_exact || (found < kTooLarge && !is_small)) return std::nullopt;
   return InputFinding{Fault::information,
                       fmt::format("the gaps of {} loops have a median chi-squared of {:.2g} "
                                   "per degree of freedom, "
