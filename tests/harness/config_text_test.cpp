@@ -3,6 +3,7 @@
 
 #include "harness/sweep/catalogue/catalogue.hpp"
 #include "harness/sweep/config/read_sweep.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::config_text_test {
 
@@ -45,6 +46,21 @@ TEST(ConfigText, IsKeptInSweepsLabelsAndRules) {
   EXPECT_EQ(sweep.datasets[1].label, "a (estimate=01)");
   EXPECT_EQ(sweep.metrics[0].label, "1e3");
   EXPECT_EQ(sweep.exclude[0].dataset, "007");
+}
+
+TEST(ConfigText, OfLabelsIsOneLineOfAnyCharacters) {
+  const std::string label = "a = b: c + d; [m], (x) / y";
+  const Sweep sweep = parse(config("{dataset: simulated, label: \"" + label + "\"}",
+                                   "{metric: ate, label: \"" + label + "\"}"));
+  EXPECT_EQ(sweep.datasets[0].label, label);
+  EXPECT_EQ(sweep.metrics[0].label, label);
+  for (const char* const escape : {"\\t", "\\n"}) {
+    const auto read = [&] {
+      parse(config(std::string("{dataset: simulated, label: \"a") + escape + "b\"}"));
+    };
+    EXPECT_EQ(refusal_of(read),
+              "c.yaml:2: label: has a tab or a line break, expected one line of text");
+  }
 }
 
 TEST(ConfigText, IsKeptInProtocolsButNotInOptionalNumbers) {

@@ -198,6 +198,7 @@ TEST(RunTimes, AreOnePerCellAndTimes) {
     r.cell.edit().peak_memory = 3'000'000;
   }
   const std::vector<Record> costs = cost_scores(records, {"cpu", "metric=memory_mb,times=dense"});
+  EXPECT_TRUE(cost_scores(records, {"method=my cpu_ms", "sequence~memory_mb"}).empty());
   ASSERT_EQ(costs.size(), 2u);
   EXPECT_EQ(costs[0].kind->label + " " + costs[1].kind->label, "cpu memory");
   EXPECT_EQ(costs[0].statistics.rmse, 2.0);

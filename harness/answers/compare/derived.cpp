@@ -1,14 +1,17 @@
 #include "harness/answers/compare/derived.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 #include "harness/answers/compare/levels.hpp"
+#include "harness/sweep/model/where.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -152,15 +155,28 @@ std::vector<Record> run_times(const std::vector<Record>& records) {
   return scores_of_cells(records, {"time", "", "ms", metrics::Better::lower, milliseconds_of});
 }
 
+namespace {
+
+/// Whether a name of a score, or rules, are about a cost. Rules about cells are not: a label can
+/// contain the name of a cost.
+bool is_about_cost(const std::string& text, const CellScore& cost) {
+  constexpr std::array<std::string_view, 5> kOfCells{
+      "sequence", "repeat", "method", "closures", "status"};
+  return std::ranges::any_of(split_rules(text), [&](const std::string& rule) {
+    if (std::ranges::count(kOfCells, field_of_rule(rule)) > 0) return false;
+    return rule == cost.label || rule.find(cost.metric) != std::string::npos ||
+           rule.find(std::string("label=") + cost.label) != std::string::npos;
+  });
+}
+
+}  // namespace
+
 std::vector<Record> cost_scores(const std::vector<Record>& records,
                                 const std::vector<std::string>& asked) {
   std::vector<Record> out;
   for (const CellScore& cost : kCosts) {
-    const auto is_about = [&](const std::string& text) {
-      return text == cost.label || text.find(cost.metric) != std::string::npos ||
-             text.find(std::string("label=") + cost.label) != std::string::npos;
-    };
-    if (std::ranges::none_of(asked, is_about)) continue;
+    const auto is_asked = [&](const std::string& text) { return is_about_cost(text, cost); };
+    if (std::ranges::none_of(asked, is_asked)) continue;
     std::ranges::move(scores_of_cells(records, cost), std::back_inserter(out));
   }
   return out;

@@ -50,7 +50,7 @@ std::vector<std::string> rules_of_runs(const std::vector<std::string>& rules, bo
   std::vector<std::string> out;
   for (const std::string& rule : rules) {
     for (const std::string& part : split_rules(rule)) {
-      const std::string field = part.substr(0, part.find_first_of("=!~"));
+      const std::string field = field_of_rule(part);
       const bool is_kept =
           field == "sequence" || field == "repeat" || (field == "method" && has_method);
       if (is_kept) out.push_back(part);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -62,6 +63,9 @@ inline ConfigEntry read_entry(const YamlNode& node,
   }
   ConfigEntry out{node, name->text, "", {}};
   read_key(node, "label", out.label, as_text);
+  if (std::ranges::any_of(out.label, [](unsigned char c) { return std::iscntrl(c) != 0; })) {
+    throw node.find("label")->error("label: has a tab or a line break, expected one line of text");
+  }
   std::vector<std::string> others = reserved;
   others.insert(others.end(), {key, "label"});
   out.points = expand(node, others);

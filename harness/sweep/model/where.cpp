@@ -87,6 +87,10 @@ std::vector<std::string> split_list(const std::string& text) {
 
 std::vector<std::string> split_rules(const std::string& rule) { return split(rule); }
 
+std::string field_of_rule(const std::string& rule) {
+  return rule.substr(0, rule.find_first_of("=!~"));
+}
+
 std::function<bool(const Record&)> where(const std::vector<std::string>& rules) {
   std::vector<Condition> conditions;
   for (const std::string& rule : rules) {

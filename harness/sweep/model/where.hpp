@@ -16,6 +16,9 @@ std::vector<std::string> split_list(const std::string& text);
 /// The single rules of a comma-separated list of them, quotes kept. Throws likewise.
 std::vector<std::string> split_rules(const std::string& rule);
 
+/// The field of a single rule; the complete text without an operator.
+std::string field_of_rule(const std::string& rule);
+
 /// Each rule is `field=text`, `field!=text` or `field~regex` (a Pattern, found anywhere), or a
 /// comma-separated list of them, with quotes around texts with commas (`method="a, b"`); all must
 /// hold. Fields are those of `field` in record.hpp; `metric` matches a metric's name or label. A
