@@ -147,7 +147,7 @@ class TransformTree {
     return step.inverse ? out.inverse() : out;
   }
 
-  std::string bag_;  ///< for errors
+  std::string bag_;                    ///< for errors
   std::map<std::string, Link> links_;  ///< by child frame
 };
 

@@ -9,6 +9,7 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
+#include "harness/answers/gate/loss.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -18,29 +19,6 @@ int severity(Status status) {
   if (status == Status::ok) return 0;
   if (status == Status::incomplete) return 1;
   return status == Status::declined ? 2 : 3;
-}
-
-double loss(const ScoreKind& kind, double before, double now) {
-  switch (kind.better) {
-    case metrics::Better::lower:
-      return now - before;
-    case metrics::Better::higher:
-      return before - now;
-    case metrics::Better::target:
-      return std::abs(now - kind.target) - std::abs(before - kind.target);
-    case metrics::Better::neither:
-      return std::abs(now - before);
-  }
-  return 0.0;
-}
-
-/// Whether at most a hundredth of an error is left. Times can shrink that much.
-bool has_vanished(const Record& score, double before, double now) {
-  if (is_measured_time(score)) return false;
-  const ScoreKind& kind = *score.kind;
-  if (kind.better != metrics::Better::lower && kind.better != metrics::Better::target) return false;
-  const double best = kind.better == metrics::Better::target ? kind.target : 0.0;
-  return std::abs(now - best) <= 0.01 * std::abs(before - best);
 }
 
 /// Numbers are compared only if these are equal.

@@ -9,6 +9,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/answers/compare/observations.hpp"
 #include "harness/answers/compare/stated.hpp"
+#include "harness/answers/tables/error_counts.hpp"
 #include "harness/answers/tables/table_numbers.hpp"
 
 namespace loopbench::harness {
@@ -31,26 +32,6 @@ std::string column_name(const Record& r,
 std::string kind_text(const ScoreKind& kind) {
   return kind.times + " / " + kind.metric_label() + " / " + kind.relation + " / " + kind.axis +
          " [" + kind.unit + "]";
-}
-
-/// Ignores single values and scores with as many errors as evaluated poses.
-void add_error_count(TableNumbers& table, std::size_t column, const Record& record) {
-  const std::size_t count = record.statistics.count;
-  if (count < 2 || count == static_cast<std::size_t>(record.pairs)) return;
-  auto& [least, most] = table.error_counts.try_emplace(column, count, count).first->second;
-  least = std::min(least, count);
-  most = std::max(most, count);
-}
-
-/// "rpe 1 s [m]: 396 to 398; ..."; empty if every value is over the evaluated poses.
-std::string error_counts_text(const TableNumbers& table) {
-  std::vector<std::string> out;
-  for (const auto& [column, range] : table.error_counts) {
-    const auto& [least, most] = range;
-    out.push_back(fmt::format("{}: {}", table.columns.names()[column], least));
-    if (most != least) out.back() += fmt::format(" to {}", most);
-  }
-  return fmt::format("{}", fmt::join(out, "; "));
 }
 
 /// Key of a run: the content of its data if known, otherwise which run it is.
