@@ -257,6 +257,12 @@ class Fixes(WithProgram):
                                r"30 \((19|20)")
         found = self.positions("out.txt")
         self.assertLess(max(math.dist(truth[:2], at) for truth, at in zip(TRUTH, found)), 0.2)
+        self.call("correct", "graph.g2o", "-o", "back.g2o")
+        written = (self.folder / "back.g2o").read_text().splitlines()
+        self.assertEqual([line for line in written if line.startswith(("PARAMS", "EDGE_SE3_PRIOR"))],
+                         [line for line in lines if line.startswith(("PARAMS", "EDGE_SE3_PRIOR"))])
+        vertices = [tuple(map(float, line.split()[2:4])) for line in written if line.startswith("VERTEX")]
+        self.assertLess(max(math.dist(a, b) for a, b in zip(found, vertices)), 1e-6)
 
 
 if __name__ == "__main__":
