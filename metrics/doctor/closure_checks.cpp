@@ -208,6 +208,7 @@ std::vector<InputFinding> check_closures(const Problem& problem,
                                          const methods::ClosureJudgement* known) {
   std::vector<InputFinding> out;
   if (problem.closures.empty()) return out;
+  if (const auto found = check_edge_frames(problem)) return {*found};
   std::vector<Edge> closures = problem.closures;  // without those found before
   JudgedProblem judged(problem, known);
   const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();

@@ -20,12 +20,19 @@ namespace loopbench::metrics {
 std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& loops,
                                                 const Chain& chain);
 
+/// Edges of the odometry that fit the keyframes in the other direction, or edges whose translations
+/// are in the axes of the world: nearly all fit better, and their median distance from the motion
+/// between the keyframes is at most a quarter. nullopt otherwise, and for less than six. O(edges).
+std::optional<InputFinding> check_edge_frames(const Problem& problem);
+
 /// Less than half of the stamps of loops are at most 20 ms from a pose: other units, frame numbers,
 /// another clock or another recording. O(loops poses log).
 std::optional<InputFinding> check_loop_stamps(const std::vector<double>& loops,
                                               const Trajectory& poses);
 
 /// Compares closures with the odometry, without a reference:
+/// - translations and directions that are not those of the file's kind, see check_edge_frames(),
+///   which is then the only finding;
 /// - identities that were not measured;
 /// - direction and conventions, see find_closure_repair(), from six closures in graphs with scales;
 /// - closures that the others contradict, and deviations that are not those stated, as judged

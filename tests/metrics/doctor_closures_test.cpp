@@ -72,6 +72,24 @@ struct Change {
   std::vector<Fault::Name> faults;
 };
 
+TEST(DoctorOfClosures, EdgesInTheOtherDirectionOrInTheAxesOfTheWorld) {
+  Problem inverted = rounds();
+  invert(inverted.odometry);
+  invert(inverted.closures);
+  const InputFinding found = only(check_closures(inverted), Fault::closure_direction);
+  EXPECT_THAT(found.evidence, HasSubstr("the edges of the odometry fit the vertices"));
+  for (const bool of_odometry : {true, false}) {
+    Problem in_world = rounds();
+    for (Edge& edge : of_odometry ? in_world.odometry : in_world.closures) {
+      Pose& pose = edge.from_from_to;
+      pose.translation = in_world.keyframes[edge.from].world_from_body.rotation * pose.translation;
+    }
+    EXPECT_THAT(only(check_closures(in_world), Fault::closure_convention).evidence,
+                HasSubstr(of_odometry ? "odometry have their translations in the axes"
+                                      : "closures have their translations in the axes"));
+  }
+}
+
 TEST(DoctorOfClosures, OneFindingForOneChange) {
   const Change changes[] = {
       {"none", [](Problem&) {}, {}},
