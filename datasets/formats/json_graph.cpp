@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,7 +18,45 @@
 namespace loopbench {
 namespace {
 
+using GraphJson = nlohmann::json;
+
 constexpr std::size_t kLargestGraph = std::size_t{1} << 30;  // [bytes]
+
+const GraphJson& member(const JsonPlace& at, const GraphJson& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  if (!object.is_object() || found == object.end()) {
+    throw at.error(std::string("has no \"") + key + "\"");
+  }
+  return *found;
+}
+
+double json_number(const JsonPlace& at, const GraphJson& object, const char* key) {
+  const GraphJson& value = member(at, object, key);
+  if (!value.is_number()) throw at.error(std::string("\"") + key + "\" is no number");
+  return value.get<double>();
+}
+
+std::int64_t json_id(const JsonPlace& at, const GraphJson& object, const char* key) {
+  const GraphJson& value = member(at, object, key);
+  if (!value.is_number_integer()) throw at.error(std::string("\"") + key + "\" is no integer");
+  return value.get<std::int64_t>();
+}
+
+/// A list of N numbers.
+template <int N>
+Eigen::Matrix<double, N, 1> json_list(const JsonPlace& at,
+                                      const GraphJson& object,
+                                      const char* key) {
+  const GraphJson& value = member(at, object, key);
+  Eigen::Matrix<double, N, 1> out;
+  if (!value.is_array() || value.size() != N ||
+      !std::ranges::all_of(value, [](const GraphJson& each) { return each.is_number(); })) {
+    throw at.error(std::string("\"") + key + "\" is not a list of " + std::to_string(N) +
+                   " numbers");
+  }
+  for (int i = 0; i < N; ++i) out[i] = value[static_cast<std::size_t>(i)].get<double>();
+  return out;
+}
 
 Pose open3d_pose(const JsonPlace& at, const GraphJson& object, const char* key) {
   const Eigen::Matrix<double, 16, 1> values = json_list<16>(at, object, key);

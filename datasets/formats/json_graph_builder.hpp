@@ -1,10 +1,9 @@
-/// Values of JSON with the entry in errors, and a pose graph built from them.
+/// A pose graph that is built from entries of a file in any order.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,8 +15,6 @@
 
 namespace loopbench {
 
-using GraphJson = nlohmann::json;
-
 /// An entry of the file, for messages.
 struct JsonPlace {
   std::string file;
@@ -27,42 +24,6 @@ struct JsonPlace {
     return input_error(file, 0, entry + ": " + what);
   }
 };
-
-inline const GraphJson& member(const JsonPlace& at, const GraphJson& object, const char* key) {
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  if (!object.is_object() || found == object.end()) {
-    throw at.error(std::string("has no \"") + key + "\"");
-  }
-  return *found;
-}
-
-inline double json_number(const JsonPlace& at, const GraphJson& object, const char* key) {
-  const GraphJson& value = member(at, object, key);
-  if (!value.is_number()) throw at.error(std::string("\"") + key + "\" is no number");
-  return value.get<double>();
-}
-
-inline std::int64_t json_id(const JsonPlace& at, const GraphJson& object, const char* key) {
-  const GraphJson& value = member(at, object, key);
-  if (!value.is_number_integer()) throw at.error(std::string("\"") + key + "\" is no integer");
-  return value.get<std::int64_t>();
-}
-
-/// A list of N numbers.
-template <int N>
-Eigen::Matrix<double, N, 1> json_list(const JsonPlace& at,
-                                      const GraphJson& object,
-                                      const char* key) {
-  const GraphJson& value = member(at, object, key);
-  Eigen::Matrix<double, N, 1> out;
-  if (!value.is_array() || value.size() != N ||
-      !std::ranges::all_of(value, [](const GraphJson& each) { return each.is_number(); })) {
-    throw at.error(std::string("\"") + key + "\" is not a list of " + std::to_string(N) +
-                   " numbers");
-  }
-  for (int i = 0; i < N; ++i) out[i] = value[static_cast<std::size_t>(i)].get<double>();
-  return out;
-}
 
 /// Sorts ids, adds their vertices if all are known, and makes edges refer to them.
 class GraphBuilder {
