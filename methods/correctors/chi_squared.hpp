@@ -1,5 +1,5 @@
 /// The chi-squared distribution of the residuals of a problem whose stated covariances are right.
-/// Whether they are, and which closures are false, states the judgement of consensus/judgement.hpp.
+/// consensus/judgement.hpp judges whether they are right, and which closures are false.
 #pragma once
 
 #include <cstddef>

@@ -35,8 +35,8 @@ struct Fit {
   bool is_better = false;
 };
 
-/// A quarter of the distance, and smaller for nearly all edges: vertices of an estimate have drift,
-/// and roads that follow an axis of the world tell little.
+/// Better: a quarter of the median distance, and smaller for nearly all edges. One of the two alone
+/// can be due to drift of the vertices, or to a road along an axis of the world.
 Fit fit_of(const Problem& problem, const std::vector<Edge>& edges, Meaning meaning) {
   constexpr std::size_t kFewest = 6;
   constexpr double kMostPart = 0.25, kNearlyAll = 0.8;
@@ -66,11 +66,11 @@ std::optional<InputFinding> check_edge_frames(const Problem& problem) {
                            const Fit& fit) {
     return InputFinding{
         fault,
-        fmt::format("{}: their median distance from the motion between their poses is {:.3g} m "
-                    "then, {:.3g} m as stated",
+        fmt::format("{}: their median distance from the motion between the vertices is {:.3g} m "
+                    "as stated, and {:.3g} m then",
                     evidence,
-                    fit.after,
-                    fit.before),
+                    fit.before,
+                    fit.after),
         fix,
         1.0 - fit.after / fit.before,
         static_cast<double>(edges.size())};
