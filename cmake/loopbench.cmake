@@ -19,7 +19,7 @@ function(loopbench_headers name)
 endfunction()
 file(GLOB loopbench_core_headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   ${PROJECT_SOURCE_DIR}/datasets/core/*.hpp)
-set(loopbench_slow_headers Eigen/Cholesky Eigen/Core Eigen/Geometry Eigen/LU algorithm chrono filesystem fstream
+set(loopbench_slow_headers Eigen/Cholesky Eigen/Core Eigen/Eigenvalues Eigen/Geometry Eigen/LU algorithm chrono filesystem fstream
   functional map memory optional set sstream string variant vector fmt/format.h ${loopbench_core_headers})
 loopbench_headers(headers HEADERS ${loopbench_slow_headers} LINK Eigen3::Eigen)
 

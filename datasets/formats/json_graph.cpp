@@ -110,7 +110,7 @@ Matrix6 jrl_information(const JsonPlace& at, const GraphJson& factor, bool plana
     const Eigen::Matrix<double, 9, 1> values = json_list<9>(at, factor, "covariance");
     return lift_planar(Matrix3(Eigen::Map<const Matrix3>(values.data())).inverse());
   }
-  return translations_first(json_list<36>(at, factor, "covariance")).inverse();
+  return inverse_of(translations_first(json_list<36>(at, factor, "covariance")));
 }
 
 void add_factor(GraphBuilder& out,

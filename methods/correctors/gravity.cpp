@@ -33,7 +33,7 @@ LevelledProblem::LevelledProblem(const Problem& problem) : levelled_(problem) {
   for (Edge& edge : levelled_.odometry) edge = levelled(edge, tilt);
   for (Edge& edge : levelled_.closures) {
     edge = levelled(edge, tilt);
-    const Eigen::Matrix2d covariance = edge.information.inverse().block<2, 2>(3, 3);
+    const Eigen::Matrix2d covariance = inverse_of(edge.information).block<2, 2>(3, 3);
     squared_tilt_ += tilt.squaredNorm();
     squared_stated_ += covariance.trace();
     chi2_ += tilt.dot(covariance.llt().solve(tilt));

@@ -263,7 +263,8 @@ std::vector<Matrix6> LoopedChain::covariances(bool has_front) const {
       const Matrix6 cross = of_front - shared.transpose() * front;
       // In the plane, other axes may be free.
       const Matrix6 known = front.transpose() * front;
-      of_twist += cross * known.completeOrthogonalDecomposition().solve(cross.transpose());
+      const Matrix6 gain = known.completeOrthogonalDecomposition().solve(cross.transpose());
+      of_twist += cross * gain;
     }
     out[j] = displaced(0.5 * (of_twist + of_twist.transpose()), poses_[j].translation);
     if (problem_.planar) out[j] = planar_covariance(out[j], poses_[j].rotation.toRotationMatrix());

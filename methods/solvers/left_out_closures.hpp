@@ -62,7 +62,7 @@ std::vector<std::optional<LeftOut<G>>> left_out_closures(const std::vector<Scale
       continue;
     }
     const Square back = root.matrixU().solve(Square::Identity());
-    const Square wider = left.inverse();
+    const Square wider = inverse_of(left);
     const typename G::Tangent white = upper * at.error;
     out.push_back(LeftOut<G>{back * (wider * white),
                              back * wider * back.transpose(),

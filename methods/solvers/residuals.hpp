@@ -42,7 +42,8 @@ EdgeResidual<G> edge_residual(const typename G::Element& to_from_measured_from,
 /// Returns U with U' U = weight * Omega. Throws std::runtime_error if it is not positive definite.
 template <class G>
 typename G::Square information_root(const Edge& edge, double weight, double scale_sigma) {
-  const Eigen::LLT<typename G::Square> factor(weight * G::information(edge, scale_sigma));
+  const Eigen::LLT<typename G::Square> factor(
+      typename G::Square(weight * G::information(edge, scale_sigma)));
   if (factor.info() != Eigen::Success) {
     throw std::runtime_error("pose graph: the information matrix of edge " +
                              std::to_string(edge.from) + " - " + std::to_string(edge.to) +

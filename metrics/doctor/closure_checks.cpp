@@ -141,8 +141,8 @@ InputFinding contradiction(const std::vector<CheckedClosure>& found,
 /// makes all axes as uncertain as the open ones.
 bool leaves_axes_open(const Edge& closure) {
   constexpr double kOpen = 1e-8;  // of the largest information
-  const Eigen::Matrix<double, 6, 1> values =
-      closure.information.selfadjointView<Eigen::Lower>().eigenvalues();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> axes(closure.information, Eigen::EigenvaluesOnly);
+  const Twist& values = axes.eigenvalues();
   return values.minCoeff() < kOpen * values.maxCoeff();
 }
 

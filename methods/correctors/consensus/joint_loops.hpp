@@ -80,7 +80,7 @@ class JointLoops {
       for (std::size_t i = 0; i < kPanel && begin + i < loops_.size(); ++i) {
         const auto columns = panel.block(row(i), row(i), rows - row(i), D);
         const Square precision = columns.transpose() * columns;
-        const Square covariance = precision.inverse();
+        const Square covariance = inverse_of(precision);
         out.push_back(
             {covariance * multipliers_.template segment<D>(row(begin + i)), covariance, 0.0, 0.0});
       }

@@ -116,7 +116,7 @@ class ChainReduction {
       out_.loops.push_back({node[edge.from],
                             node[edge.to],
                             G::from(measured(edge)),
-                            G::information(edge, 1.0).inverse()});
+                            inverse_of(G::information(edge, 1.0))});
     }
     return std::move(out_);
   }
@@ -153,7 +153,7 @@ class ChainReduction {
     for (Element& each : out) each = G::compose(shift, each);
     double least = 1e-9;
     for (const std::size_t c : closures_) {
-      const Square covariance = G::information(problem_.closures[c], 1.0).inverse();
+      const Square covariance = inverse_of(G::information(problem_.closures[c], 1.0));
       least = std::max(least, std::sqrt(covariance(0, 0)));
     }
     out_.log_uniform = log_uniform_density<G>(positions, least);
@@ -195,7 +195,7 @@ class ChainReduction {
     }
     constexpr int kFirst = kTranslation<G>, kLast = G::kDof - kFirst;
     const double variance = inflation_[step] * inflation_[step];
-    const Square own = variance * G::information(*edges_[step], 1.0).inverse();
+    const Square own = variance * inverse_of(G::information(*edges_[step], 1.0));
     to.translation.template topLeftCorner<kFirst, kFirst>() +=
         own.template topLeftCorner<kFirst, kFirst>();
     to.rotation.template bottomRightCorner<kLast, kLast>() +=

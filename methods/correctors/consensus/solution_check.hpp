@@ -32,7 +32,7 @@ double closure_variance_factor(const std::vector<std::optional<LeftOut<G>>>& clo
 /// Log odds of an outlier over a true closure.
 template <class G>
 double outlier_odds(const LeftOut<G>& without, const Edge& closure, double log_uniform) {
-  const typename G::Square own = G::information(closure, 1.0).inverse();
+  const typename G::Square own = inverse_of(G::information(closure, 1.0));
   typename G::Square own_translation = G::Square::Zero();
   constexpr int kFirst = kTranslation<G>;
   own_translation.template topLeftCorner<kFirst, kFirst>() =

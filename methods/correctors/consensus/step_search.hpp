@@ -222,7 +222,7 @@ class StepSearch {
     Tangent scale;
     scale.template head<kFirst>().setConstant(inflation * std::exp(factors.translation));
     scale.template tail<G::kDof - kFirst>().setConstant(inflation * std::exp(factors.rotation));
-    return scale.asDiagonal() * G::information(*edges_[k], 1.0).inverse() * scale.asDiagonal();
+    return scale.asDiagonal() * inverse_of(G::information(*edges_[k], 1.0)) * scale.asDiagonal();
   }
 
   struct EndMotion {
@@ -246,7 +246,7 @@ class StepSearch {
     if (!joint.is_positive()) return {Tangent::Zero(), Square::Identity()};
     const Eigen::MatrixXd solved = joint.solve(spans);
     const Square precision = spans.transpose() * solved;
-    const Square covariance = precision.inverse();
+    const Square covariance = inverse_of(precision);
     return {covariance * (solved.transpose() * joint.rho()), covariance};
   }
 

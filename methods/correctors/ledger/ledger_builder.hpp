@@ -181,7 +181,7 @@ class LedgerBuilder {
     const Square cross = part(at.by_from, closure.from, at.by_to, closure.to);
     const Square covariance = part(at.by_from, closure.from, at.by_from, closure.from) +
                               part(at.by_to, closure.to, at.by_to, closure.to) + cross +
-                              cross.transpose() + G::information(closure, 1.0).inverse();
+                              cross.transpose() + inverse_of(G::information(closure, 1.0));
     return closure_error<G>(at.error, covariance);
   }
 

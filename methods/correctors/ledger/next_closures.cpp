@@ -24,7 +24,7 @@ typename G::Square typical_covariance(const std::vector<Edge>& closures) {
   }
   const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
   std::nth_element(order.begin(), middle, order.end());
-  return G::information(closures[middle->second], 1.0).inverse();
+  return inverse_of(G::information(closures[middle->second], 1.0));
 }
 
 /// Covariances between all poses and some of them.
@@ -106,7 +106,8 @@ class Candidates {
     const double metres = from_from_to.translation.norm();
     const double spread = std::sqrt(predicted.diagonal().template head<kAxes>().sum());
     if (metres > longest_ + 2.0 * spread) return;
-    const double decrease = (predicted + own_).llt().solve(through(gram_)).trace();
+    const double decrease =
+        Eigen::LLT<Square>(Square(predicted + own_)).solve(through(gram_)).trace();
     out.push_back({decrease, {keyframes_[i], keyframes_[j], metres, deviation(decrease)}});
   }
 

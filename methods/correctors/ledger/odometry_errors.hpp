@@ -74,7 +74,7 @@ std::vector<std::optional<ClosureError>> odometry_errors(const Problem& problem,
     if (edge == problem.odometry.end() || edge->from != k) continue;
     const Square J = G::adjoint(poses[k + 1]);
     const Square information = G::information(*edge++, 1.0);
-    sum[k + 1] += J * information.inverse() * J.transpose();
+    sum[k + 1] += J * inverse_of(information) * J.transpose();
   }
   std::vector<std::optional<ClosureError>> out;
   for (const Edge& closure : problem.closures) {
@@ -86,7 +86,7 @@ std::vector<std::optional<ClosureError>> odometry_errors(const Problem& problem,
         G::inverse(G::from(measured(closure))), poses[closure.from], poses[closure.to]);
     const Square J = at.by_to * G::adjoint(G::inverse(poses[closure.to]));
     const Square steps = sum[closure.to] - sum[closure.from];
-    const Square own = G::information(closure, 1.0).inverse();
+    const Square own = inverse_of(G::information(closure, 1.0));
     out.push_back(closure_error<G>(at.error, J * steps * J.transpose() + own));
   }
   return out;
