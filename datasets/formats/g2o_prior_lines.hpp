@@ -18,19 +18,30 @@
 namespace loopbench {
 
 /// Returns the PARAMS lines, then the priors of the vertices `ids` (ascending) in the order of the
-/// file, also those that are not used. O(size of the file).
+/// file, also those that are not used. `anchors`: those of the file, sorted by keyframe; the lines
+/// of the indices `dropped` (ascending) are left out. O(size of the file).
 inline std::vector<std::string> prior_lines(const std::filesystem::path& path,
-                                            const std::vector<std::int64_t>& ids) {
+                                            const std::vector<std::int64_t>& ids,
+                                            const std::vector<Anchor>& anchors,
+                                            const std::vector<std::size_t>& dropped) {
   std::vector<std::string> out, priors;
+  std::vector<std::size_t> passed(ids.size(), 0);  // lines of each vertex
+  const auto is_dropped = [&](std::size_t vertex) {
+    const auto first = std::ranges::lower_bound(anchors, vertex, {}, &Anchor::keyframe);
+    const auto index = static_cast<std::size_t>(first - anchors.begin()) + passed[vertex]++;
+    return std::ranges::binary_search(dropped, index);
+  };
   TextFile file(path);
   for (Line line; file.next(line);) {
     Columns columns(file, line);
     const std::string_view word = columns.word();
     if (word.starts_with("PARAMS")) out.emplace_back(line.text);
-    const bool is_prior =
-        std::ranges::find(kPriorTags, word, &PriorTag::word) != kPriorTags.end() ||
-        word.starts_with("EDGE_SE3_PRIOR");
-    if (!is_prior || !std::ranges::binary_search(ids, columns.integer("id"))) continue;
+    const bool is_anchor = std::ranges::find(kPriorTags, word, &PriorTag::word) != kPriorTags.end();
+    if (!is_anchor && !word.starts_with("EDGE_SE3_PRIOR")) continue;
+    const std::int64_t id = columns.integer("id");
+    const auto found = std::ranges::lower_bound(ids, id);
+    if (found == ids.end() || *found != id) continue;
+    if (is_anchor && is_dropped(static_cast<std::size_t>(found - ids.begin()))) continue;
     priors.emplace_back(line.text);
   }
   out.insert(out.end(), priors.begin(), priors.end());
@@ -55,12 +66,18 @@ inline std::vector<std::string> prior_lines(const std::vector<Anchor>& anchors,
   return out;
 }
 
-/// Lines of the priors of a graph: of the file, or in a graph in JSON of its `anchors`.
+/// Lines of the priors of a graph without those of `dropped` anchors: of the file, or in a graph in
+/// JSON of its `anchors`.
 inline std::vector<std::string> prior_lines(const std::filesystem::path& path,
                                             const PoseGraph& written,
-                                            const std::vector<Anchor>& anchors) {
-  return is_json_graph(path) ? prior_lines(anchors, written.ids, written.planar)
-                             : prior_lines(path, written.ids);
+                                            const std::vector<Anchor>& anchors,
+                                            const std::vector<std::size_t>& dropped = {}) {
+  if (!is_json_graph(path)) return prior_lines(path, written.ids, anchors, dropped);
+  std::vector<Anchor> kept;
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    if (!std::ranges::binary_search(dropped, i)) kept.push_back(anchors[i]);
+  }
+  return prior_lines(kept, written.ids, written.planar);
 }
 
 }  // namespace loopbench

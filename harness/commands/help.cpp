@@ -127,7 +127,7 @@ const std::map<std::string, ExitCodes> kExitCodes{
     {"eval", {"an estimate failed or covers too little"}},
     {"compare", {"an assertion is not shown"}},
     {"check", {"regressions"}},
-    {"loops", {"closures contradict each other"}},
+    {"loops", {"closures or anchors contradict each other"}},
     {"doctor", {"mistakes found or nothing could be checked"}},
 };
 

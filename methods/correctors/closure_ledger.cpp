@@ -26,11 +26,14 @@ ClosureLedger closure_ledger(const Problem& problem, const LedgerSettings& setti
 }
 
 Problem trusted_problem(const Problem& problem, const ClosureLedger& ledger) {
-  if (!ledger.judgement || !ledger.judgement->is_decided()) return problem;
-  ClosureJudgement stated = *ledger.judgement;
-  stated.factors = {};
-  Problem out = agreed_problem(problem, stated);
-  out.anchors = problem.anchors;
+  Problem out = problem;
+  if (ledger.judgement && ledger.judgement->is_decided()) {
+    ClosureJudgement stated = *ledger.judgement;
+    stated.factors = {};
+    out = agreed_problem(problem, stated);
+  }
+  out.anchors =
+      ledger.anchors ? consensus::used_anchors(problem.anchors, *ledger.anchors) : problem.anchors;
   return out;
 }
 

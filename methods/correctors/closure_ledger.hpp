@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "datasets/core/problem.hpp"
+#include "methods/correctors/consensus/judged_anchors.hpp"
 #include "methods/correctors/consensus/judgement.hpp"
 #include "methods/correctors/ledger/closure_error.hpp"
 
@@ -72,6 +73,7 @@ struct ClosureLedger {
   bool helps = false;
   std::optional<ClosureJudgement> judgement;  ///< unset: `why_unknown`
   std::string why_unknown;
+  std::optional<consensus::AnchorJudgement> anchors;  ///< unset: the problem has none
   LedgerVerdict verdict = LedgerVerdict::unknown;
 
   ClosureFinding finding(std::size_t closure) const {
@@ -105,8 +107,8 @@ std::string why_no_ledger(const Problem& problem);
 /// each named suspect.
 ClosureLedger closure_ledger(const Problem& problem, const LedgerSettings& settings = {});
 
-/// The problem with the closures that agree and freed steps, with the stated covariances; all
-/// closures, if nothing is decided.
+/// The problem with the closures that agree and freed steps, with the stated covariances, and with
+/// the anchors that agree; all closures, if nothing is decided.
 Problem trusted_problem(const Problem& problem, const ClosureLedger& ledger);
 
 }  // namespace loopbench::methods

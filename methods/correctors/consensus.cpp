@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/correctors/anchors.hpp"
 #include "methods/correctors/consensus/anchor_judgement.hpp"
+#include "methods/correctors/consensus/anchor_text.hpp"
 #include "methods/correctors/consensus/judgement_text.hpp"
 #include "methods/correctors/consensus/odometry_fault.hpp"
 #include "methods/correctors/pose_graph.hpp"
@@ -28,50 +28,6 @@ std::string freed_text(const Problem& problem, const FreedStep& step) {
                      as);
 }
 
-/// The anchors that are dropped, those with the most evidence against them first; at most five.
-std::string dropped_text(const Problem& problem, const AnchorJudgement& found) {
-  constexpr std::size_t kMostListed = 5;
-  std::vector<std::size_t> dropped;
-  for (std::size_t i = 0; i < found.anchors.size(); ++i) {
-    if (!found.anchors[i].agrees) dropped.push_back(i);
-  }
-  std::ranges::stable_sort(dropped, {}, [&](std::size_t i) { return found.anchors[i].log_odds; });
-  std::string out;
-  for (std::size_t i = 0; i < std::min(dropped.size(), kMostListed); ++i) {
-    out += fmt::format("{}{} ({:.3g} m)",
-                       i == 0 ? "" : ", ",
-                       problem.name_of(problem.anchors[dropped[i]].keyframe),
-                       found.anchors[dropped[i]].metres);
-  }
-  if (dropped.size() <= kMostListed) return out;
-  return out + fmt::format(" and {} more", dropped.size() - kMostListed);
-}
-
-/// A motion that all anchors share against the keyframes is followed, because their frames are
-/// often different, but stated where it is the larger part of their errors.
-void note_datum_shift(const Problem& problem, const Problem& agreed, Report& report) {
-  constexpr double kLarger = 3.0;
-  Problem frames = problem;
-  frames.anchors = agreed.anchors;
-  const UsedAnchors used(frames);
-  if (!used.is_first_free) return;
-  const Pose motion = used.alignment(problem.keyframes);
-  double before = 0.0, after = 0.0;
-  Vector3 centre = Vector3::Zero();
-  for (const Anchor& anchor : used.anchors) {
-    const Pose& pose = problem.keyframes[anchor.keyframe].world_from_body;
-    before += anchor_error(anchor, pose).squaredNorm();
-    after += anchor_error(anchor, motion * pose).squaredNorm();
-    centre += pose.translation / static_cast<double>(used.anchors.size());
-  }
-  if (!(before > kLarger * kLarger * after)) return;
-  report.notes.push_back(
-      fmt::format("the anchors are shifted against the keyframes by {:.3g} m and {:.3g} degrees, "
-                  "all by the same motion: the result is in their frame",
-                  (motion * centre - centre).norm(),
-                  log_so3(motion.rotation).norm() * 180.0 / M_PI));
-}
-
 /// Adds the anchors that agree to the problem that will be solved. Returns whether there are any.
 bool add_anchors(const Problem& problem, bool is_calibrated, Problem& agreed, Report& report) {
   if (problem.anchors.empty()) return false;
@@ -80,26 +36,18 @@ bool add_anchors(const Problem& problem, bool is_calibrated, Problem& agreed, Re
       report.time("judge anchors", [&] { return consensus::judge_anchors(agreed, is_calibrated); });
   report.count("anchors_kept", found.is_decided ? static_cast<double>(found.agreeing) : 0.0);
   report.count("factor_anchors", found.factor);
-  const std::size_t all = problem.anchors.size();
   if (!found.is_decided) {
     agreed.anchors.clear();
-    report.notes.push_back(fmt::format(
-        "no anchor is used: {} of {} agree with each other, log odds {:.3g}; more than half, and "
-        "odds of ln 100 = 4.6 would decide (pose_graph uses all)",
-        found.agreeing,
-        all,
-        found.evidence));
+    report.notes.push_back(consensus::anchors_text(problem, found));
     return false;
   }
   consensus::use_agreeing_anchors(problem, found, agreed);
-  if (found.agreeing < all) {
-    report.notes.push_back(fmt::format(
-        "{} of {} anchors are used; dropped, with the distance from what the others predict: {}",
-        found.agreeing,
-        all,
-        dropped_text(problem, found)));
+  if (found.agreeing < problem.anchors.size()) {
+    report.notes.push_back(consensus::anchors_text(problem, found));
   }
-  note_datum_shift(problem, agreed, report);
+  if (std::string shift = consensus::datum_shift_text(problem, found); !shift.empty()) {
+    report.notes.push_back(std::move(shift));
+  }
   return true;
 }
 

@@ -61,7 +61,7 @@ class WithProgram(unittest.TestCase):
     def call(self, *arguments, code=0):
         done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout if code == 0 else done.stderr
+        return done.stderr if code == 2 else done.stdout
 
     def positions(self, name):
         rows = [line.split() for line in (self.folder / name).read_text().splitlines() if line[0] != "#"]
@@ -263,6 +263,34 @@ class Fixes(WithProgram):
                          [line for line in lines if line.startswith(("PARAMS", "EDGE_SE3_PRIOR"))])
         vertices = [tuple(map(float, line.split()[2:4])) for line in written if line.startswith("VERTEX")]
         self.assertLess(max(math.dist(a, b) for a, b in zip(found, vertices)), 1e-6)
+
+    def test_loops_names_outlying_priors_and_writes_the_others_back(self):
+        diagonal = " ".join(str((400 if i < 3 else 1e5) if i == j else 0) for i in range(6) for j in range(i, 6))
+        drift, of = [TRUTH[0]], random.Random(9)
+        for before, after in zip(TRUTH, TRUTH[1:]):
+            drift.append(compose(compose(drift[-1], between(before, after)), (0, 0, of.gauss(0, 0.003))))
+        graph = [f"VERTEX_SE3:QUAT {k} {numbers(each)}" for k, each in enumerate(drift)]
+        steps = [f"EDGE_SE3:QUAT {k} {k + 1} {numbers(between(a, b))} {diagonal}"
+                 for k, (a, b) in enumerate(zip(drift, drift[1:]))]
+        steps += [f"EDGE_SE3:QUAT {a} {b} {numbers(between(TRUTH[a], TRUTH[b]))} {diagonal}"
+                  for a, b in ((0, 99), (5, 60), (20, 80), (10, 90), (30, 75), (40, 95))]
+        weak = " ".join(str((100 if i < 3 else 1e-6) if i == j else 0) for i in range(6) for j in range(i, 6))
+        vertices = sorted([*range(0, COUNT, EVERY), 30])  # of two priors at vertex 30, the second is wrong
+        wrong = [vertices.index(30) + 1, vertices.index(60)]
+        priors = [f"EDGE_SE3_PRIOR {k} {TRUTH[k][0] + of.gauss(0, 0.1) + (OFF if i in wrong else 0):.9f} "
+                  f"{TRUTH[k][1] + of.gauss(0, 0.1):.9f} 0 0 0 0 1 {weak}" for i, k in enumerate(vertices)]
+        self.write("graph.g2o", graph + steps + priors)
+        text = self.call("loops", "graph.g2o", "-o", "repaired.g2o", code=1)
+        self.assertRegex(text, r"All 6 closures agree\.(?s:.)*33 of 35 anchors are used; dropped, .*: "
+                               r"(30 \((19|20)[\d.]* m\), 60|60 \((19|20)[\d.]* m\), 30) \(")
+        written = (self.folder / "repaired.g2o").read_text().splitlines()
+        self.assertEqual([line for line in written if line.startswith("EDGE_SE3_PRIOR")],
+                         [line for i, line in enumerate(priors) if i not in wrong])
+        self.assertEqual([line for line in written if line.startswith("#")],
+                         ["# dropped anchor: 30", "# dropped anchor: 60"])
+        found = json.loads(self.call("loops", "graph.g2o", "--json", code=1))["anchors"]
+        self.assertEqual((found["used"], sorted(each["at"] for each in found["dropped"])), (33, [30, 60]))
+        self.assertIn("All 33 anchors agree.", self.call("loops", "repaired.g2o"))
 
 
 if __name__ == "__main__":

@@ -107,6 +107,38 @@ TEST(ClosureLedger, UsesAnchors) {
   expect_solutions(problem, 1e-5);
 }
 
+TEST(ClosureLedger, LeavesOutOutlyingAnchors) {
+  Problem problem = rounds(3);
+  const Trajectory solved = solution(problem).first;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(0.0, 0.05);
+  for (std::size_t k = 0; k < problem.keyframes.size(); k += 6) {
+    const Vector3 noise(normal(random), normal(random), normal(random));
+    problem.anchors.push_back({.keyframe = k,
+                               .position = solved[k].world_from_body.translation + noise,
+                               .covariance = 0.0025 * Matrix3::Identity()});
+  }
+  Problem clean = problem;
+  for (const std::size_t outlier : {7UL, 20UL}) {
+    problem.anchors[outlier].position += Vector3(12.0, -9.0, 3.0);
+    clean.anchors.erase(clean.anchors.begin() + static_cast<std::ptrdiff_t>(outlier) -
+                        (outlier == 20 ? 1 : 0));
+  }
+  const ClosureLedger ledger = closure_ledger(problem), expected = closure_ledger(clean);
+  ASSERT_TRUE(ledger.anchors && ledger.anchors->is_decided);
+  for (std::size_t i = 0; i < problem.anchors.size(); ++i) {
+    EXPECT_EQ(ledger.anchors->anchors[i].agrees, i != 7 && i != 20) << i;
+  }
+  EXPECT_NEAR(ledger.anchors->anchors[7].metres, std::sqrt(234.0), 0.5);
+  EXPECT_EQ(ledger.verdict, LedgerVerdict::agrees);
+  ASSERT_TRUE(expected.anchors);
+  EXPECT_EQ(expected.anchors->agreeing, clean.anchors.size());
+  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+    EXPECT_DOUBLE_EQ(ledger.rows[k].cost_drop, expected.rows[k].cost_drop) << k;
+  }
+  EXPECT_EQ(trusted_problem(problem, ledger).anchors.size(), clean.anchors.size());
+}
+
 TEST(ClosureLedger, StatesOneScalarLoopAnalytically) {
   // Four steps of 1 m with variance 1 each; closures 0 -> 4 measures 5 m, 0 -> 2 measures 2 m, both
   // with variance 1. All lie at one place, so nothing predicts the other.

@@ -51,7 +51,7 @@ int run_loops(const LoopsCommand& a) {
   if (!a.csv.empty()) write_file(a.csv, csv(result));
   if (!a.plot.empty()) draw_map(loops_figure(result), a.plot, a.figure);
   if (!a.repaired.empty()) write_repaired(result, provenance, a.repaired);
-  return is_contradicted(result.ledger.verdict) ? kExitNotShown : kExitOk;
+  return is_contradicted(result) ? kExitNotShown : kExitOk;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <map>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "datasets/core/error.hpp"
 #include "datasets/derive/problem_graph.hpp"
@@ -14,6 +15,19 @@
 #include "datasets/formats/g2o_prior_lines.hpp"
 
 namespace loopbench::harness {
+namespace {
+
+/// Indices of the anchors that do not agree, ascending.
+std::vector<std::size_t> dropped_anchors(const LoopsResult& result) {
+  const auto& found = result.ledger.anchors;
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; found && i < found->anchors.size(); ++i) {
+    if (!found->is_decided || !found->anchors[i].agrees) out.push_back(i);
+  }
+  return out;
+}
+
+}  // namespace
 
 LoopsResult loops(Problem problem,
                   std::string estimate,
@@ -66,8 +80,13 @@ void write_repaired(const LoopsResult& result,
   graph.fixed = provenance.fixed;
   TextWriter out = g2o_text(graph);
   if (has_anchors) {
-    for (const std::string& line : prior_lines(result.estimate, graph, result.problem.anchors)) {
+    const std::vector<std::size_t> dropped = dropped_anchors(result);
+    const std::vector<Anchor>& anchors = result.problem.anchors;
+    for (const std::string& line : prior_lines(result.estimate, graph, anchors, dropped)) {
       out.word(line).end_line();
+    }
+    for (const std::size_t i : dropped) {
+      out.comment("dropped anchor: " + result.problem.name_of(anchors[i].keyframe));
     }
   }
   for (std::size_t rank = 0; rank < ledger.suspects.size(); ++rank) {

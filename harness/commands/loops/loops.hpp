@@ -30,12 +30,14 @@ std::string text(const LoopsResult& result,
                  const std::optional<methods::NextClosures>& next = {});
 
 /// Object with keys verdict, helps, sentence, places, better_places, ratio, covered, steps [{from,
-/// to, metres, degrees, inflation or null}], closures, the rows of csv(), and next {deviation,
-/// closures [{from, to, metres, deviation}]} if it is given.
+/// to, metres, degrees, inflation or null}], anchors (null, or {used, decided, factor, dropped
+/// [{at, metres, log_odds}]}), closures, the rows of csv(), and next {deviation, closures [{from,
+/// to, metres, deviation}]} if it is given.
 std::string json(const LoopsResult& result, const std::optional<methods::NextClosures>& next = {});
 
 /// Writes the graph with the closures that agree and with freed steps, whose information is lower;
-/// comments name them and the closures that were dropped. Lines of priors are those of the input.
+/// comments name them and the closures and anchors that were dropped. Lines of priors are those of
+/// the input, except those of dropped anchors.
 /// Throws InputError if nothing is decided, or if there are anchors of another file, and if the
 /// file cannot be written.
 void write_repaired(const LoopsResult& result,

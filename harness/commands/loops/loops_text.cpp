@@ -32,6 +32,24 @@ Json row_json(const LoopsResult& result, std::size_t rank) {
   return out;
 }
 
+/// null without anchors.
+Json anchors_json(const LoopsResult& result) {
+  const auto& found = result.ledger.anchors;
+  if (!found) return nullptr;
+  Json dropped = Json::array();
+  for (std::size_t i = 0; i < found->anchors.size(); ++i) {
+    const auto& each = found->anchors[i];
+    if (found->is_decided && each.agrees) continue;
+    dropped.push_back({{"at", keyframe_json(result.problem, result.problem.anchors[i].keyframe)},
+                       {"metres", each.metres},
+                       {"log_odds", each.log_odds}});
+  }
+  return {{"used", found->anchors.size() - dropped.size()},
+          {"decided", found->is_decided},
+          {"factor", found->factor},
+          {"dropped", dropped}};
+}
+
 Json next_json(const LoopsResult& result, const methods::NextClosures& next) {
   Json closures = Json::array();
   for (const methods::NextClosure& each : next.found) {
@@ -147,6 +165,7 @@ std::string json(const LoopsResult& result, const std::optional<methods::NextClo
            {"covered", ledger.covered},
            {"steps",
             ledger.judgement ? steps_json(result.problem, ledger.judgement->steps) : Json::array()},
+           {"anchors", anchors_json(result)},
            {"closures", Json::array()}};
   for (std::size_t rank = 0; rank < ledger.suspects.size(); ++rank) {
     out["closures"].push_back(row_json(result, rank));

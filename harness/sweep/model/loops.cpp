@@ -2,20 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
 
-#include "harness/sweep/text/counted.hpp"
-
 namespace loopbench::harness {
 namespace {
 
-using methods::ClosureLedger;
 using methods::LedgerRow;
-using methods::LedgerVerdict;
 
 /// `digits` digits; 0: the shortest that are read as the same number. Empty unless it is finite.
 std::string decimal(double value, int digits = 0) {
@@ -29,143 +24,6 @@ std::string decimal(double value, int digits = 0) {
 std::string keyframe_name(const Problem& problem, std::size_t keyframe) {
   if (!problem.ids.empty()) return std::to_string(problem.ids[keyframe]);
   return decimal(shown_stamp(problem.keyframes[keyframe].stamp));
-}
-
-/// "9.40 m and 179 deg from the prediction by the others; chi2 falls by 20594 without it".
-std::string error_text(const LedgerRow& row) {
-  std::string out;
-  if (row.predicted) {
-    out = fmt::format("{} m and {} deg from its prediction by the others",
-                      plain_number(row.predicted->metres),
-                      plain_number(row.predicted->degrees));
-  } else if (row.in_odometry) {
-    out = fmt::format("{} m and {} deg from the odometry",
-                      plain_number(row.in_odometry->metres),
-                      plain_number(row.in_odometry->degrees));
-  }
-  if (!row.is_drop_solved) return out;
-  return out + fmt::format("{}chi2 falls by {} without it",
-                           out.empty() ? "" : "; ",
-                           plain_number(row.cost_drop));
-}
-
-/// The first suspects with their errors, and how many follow of `count`.
-std::string suspects_text(const LoopsResult& result, std::size_t count) {
-  constexpr std::size_t kNamed = 3;
-  std::string out;
-  const std::size_t shown = std::min(count, kNamed);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const std::size_t k = result.ledger.suspects[i];
-    if (i > 0) out += ", then ";
-    out += closure_name(result.problem, k);
-    const std::string error = error_text(result.ledger.rows[k]);
-    if (!error.empty()) out += " (" + error + ")";
-  }
-  return count > shown ? out + fmt::format(", and {} more", count - shown) : out;
-}
-
-std::string places_text(const ClosureLedger& ledger) {
-  if (ledger.places < 2) {
-    return "All closures are at one place, so no other place predicts them, and it cannot be shown "
-           "whether the correction helps.";
-  }
-  const std::string out = fmt::format(
-      "Each of the {} places is predicted from the others, typically with {} of the odometry's "
-      "error (less at {} of {} places); {:.0f} % of the path lies in loops of at least two "
-      "places. ",
-      ledger.places,
-      plain_number(ledger.ratio),
-      ledger.better_places,
-      ledger.places,
-      100.0 * ledger.covered);
-  return out +
-         (ledger.helps
-              ? "The correction probably helps; by how much is not known."
-              : "This does not show whether the correction helps: closures at more places, on "
-                "more of the path, would.");
-}
-
-std::string steps_text(const LoopsResult& result) {
-  std::string out;
-  for (const methods::FreedStep& step : result.ledger.judgement->steps) {
-    out += fmt::format("{}{} ({} m, {} deg)",
-                       out.empty() ? " Steps of the odometry that are wrong: " : ", ",
-                       step_name(result.problem, step.from),
-                       plain_number(step.metres),
-                       plain_number(step.degrees));
-  }
-  return out.empty() ? out : out + "; `correct` frees them.";
-}
-
-std::string disagreement_text(const LoopsResult& result) {
-  const ClosureLedger& ledger = result.ledger;
-  const std::size_t all = ledger.rows.size(), agreeing = ledger.judgement->agreeing;
-  std::string out;
-  if (agreeing < all) {
-    out = fmt::format("{} of {} {} with the {} that agree: {}. `correct` drops {}.",
-                      all - agreeing,
-                      counted(all, "closure"),
-                      all - agreeing == 1 ? "disagrees" : "disagree",
-                      agreeing,
-                      suspects_text(result, all - agreeing),
-                      all - agreeing == 1 ? "it" : "them");
-  }
-  out += steps_text(result);
-  if (out.starts_with(' ')) out.erase(0, 1);
-  if (ledger.helps) out += " With the others, the correction probably helps.";
-  return out;
-}
-
-std::string unchecked_text(const LoopsResult& result) {
-  const ClosureLedger& ledger = result.ledger;
-  const std::string count = counted(ledger.rows.size(), "closure");
-  if (ledger.verdict == LedgerVerdict::unknown) {
-    return count + " cannot be checked: " + ledger.why_unknown + ".";
-  }
-  const std::size_t more = ledger.judgement->more_needed;
-  const std::string remedy =
-      more > 0 ? fmt::format(" About {} at other places would decide, if they agree.",
-                             counted(more, "further closure"))
-               : " Closures at other places would decide.";
-  if (ledger.verdict == LedgerVerdict::few) {
-    return fmt::format(
-        "{} cannot be checked: too few to confirm each other.{} `correct` moves "
-        "nothing without --trust-loops.",
-        count,
-        remedy);
-  }
-  const std::string suspects = suspects_text(result, std::min<std::size_t>(2, ledger.rows.size()));
-  if (ledger.verdict == LedgerVerdict::rival) {
-    return fmt::format(
-        "Two sets of closures contradict each other, and neither is clearly "
-        "likelier; most suspicious: {}.{} `correct` moves nothing.",
-        suspects,
-        remedy);
-  }
-  return fmt::format(
-      "Odometry and closures contradict each other, most at {}. No closure confirms "
-      "another, so the cause can be the closures, the odometry (its scale) or the stated "
-      "covariances (see loopbench doctor).{} `correct` moves nothing.",
-      suspects,
-      remedy);
-}
-
-/// Closures that agree, but that nothing at another place predicts.
-std::string unpredicted_text(const LoopsResult& result) {
-  const ClosureLedger& ledger = result.ledger;
-  if (ledger.places < 2) return "";
-  std::string first;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < ledger.rows.size(); ++k) {
-    if (ledger.rows[k].predicted) continue;
-    if (count++ == 0) first = closure_name(result.problem, k);
-  }
-  if (count == 0) return "";
-  return fmt::format(
-      " {} cannot be checked by other places (the first is {}): only its place connects these "
-      "keyframes; another closure between them, at another place, would allow the check.",
-      counted(count, "closure"),
-      first);
 }
 
 }  // namespace
@@ -188,19 +46,6 @@ std::string plain_number(double value) {
 
 std::string step_name(const Problem& problem, std::size_t from) {
   return keyframe_name(problem, from) + " -> " + keyframe_name(problem, from + 1);
-}
-
-std::string verdict_text(const LoopsResult& result) {
-  const ClosureLedger& ledger = result.ledger;
-  if (ledger.verdict == LedgerVerdict::disagrees) {
-    return disagreement_text(result) + unpredicted_text(result);
-  }
-  if (ledger.verdict != LedgerVerdict::agrees) return unchecked_text(result);
-  const std::string all =
-      ledger.rows.size() == 1
-          ? "The closure agrees with the odometry. "
-          : fmt::format("All {} agree. ", counted(ledger.rows.size(), "closure"));
-  return all + places_text(ledger) + unpredicted_text(result);
 }
 
 const char* judgement(const LoopsResult& result, std::size_t rank) {

@@ -26,8 +26,12 @@ std::string closure_name(const Problem& problem, std::size_t closure);
 /// For people: three digits or more and no exponent, at most three decimals: 2467, 12.4, 0.031.
 std::string plain_number(double value);
 
+/// Whether closures or anchors contradict each other or the odometry.
+bool is_contradicted(const LoopsResult& result);
+
 /// Whether the closures agree, or which contradict the others (in which order), or why nothing can
-/// be stated and what would change that; whether the correction probably helps.
+/// be stated and what would change that; whether the correction probably helps; which anchors are
+/// dropped.
 std::string verdict_text(const LoopsResult& result);
 
 /// Of the closure at a rank of `suspects`: "agrees", "disagrees", or "unchecked".

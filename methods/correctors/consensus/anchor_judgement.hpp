@@ -17,26 +17,12 @@
 #include "methods/correctors/consensus/elimination.hpp"
 #include "methods/correctors/consensus/factor_estimate.hpp"
 #include "methods/correctors/consensus/judge.hpp"
+#include "methods/correctors/consensus/judged_anchors.hpp"
+#include "methods/correctors/consensus/judgement.hpp"
 #include "methods/correctors/consensus/unknown_motion.hpp"
 #include "methods/correctors/pose_graph.hpp"
 
 namespace loopbench::methods::consensus {
-
-struct JudgedAnchor {
-  bool agrees = true;
-  /// Log odds of true over an outlier, given all others that agree [-]; 0: they do not predict it.
-  double log_odds = 0.0;
-  double metres = 0.0;  ///< distance from the position that the others predict
-};
-
-struct AnchorJudgement {
-  std::vector<JudgedAnchor> anchors;  ///< one per anchor of the problem
-  double factor = 1.0;                ///< on their stated deviations [-]
-  double odometry = 1.0;              ///< on the deviations of the odometry [-]
-  std::size_t agreeing = 0;
-  double evidence = 0.0;   ///< log odds of those that agree, summed [-]
-  bool is_decided = true;  ///< none is dropped, or more than half agree with enough evidence
-};
 
 /// Replaces the anchors of `to`, a problem with the same keyframes, by those of `problem` that
 /// agree, and multiplies their deviations and those of the odometry by the factors.
@@ -293,6 +279,17 @@ inline AnchorJudgement judge_anchors(const Problem& problem, bool is_calibrated)
   out.is_decided =
       is_all || (2 * out.agreeing > problem.anchors.size() && out.evidence > kLogNeeded);
   return out;
+}
+
+/// The same after a judgement of the closures: with those that agree and their factors, or, if they
+/// do not decide, without closures.
+inline AnchorJudgement judge_anchors(const Problem& problem, const ClosureJudgement& closures) {
+  ClosureJudgement used = closures;
+  if (!used.is_decided()) used = {};
+  used.closures.resize(problem.closures.size());
+  Problem agreed = agreed_problem(problem, used);
+  agreed.anchors = problem.anchors;
+  return judge_anchors(agreed, used.is_decided() && used.evidence > 0.0);
 }
 
 }  // namespace loopbench::methods::consensus

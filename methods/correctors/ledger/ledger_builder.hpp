@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "datasets/core/closure_parts.hpp"
 #include "datasets/core/closure_places.hpp"
+#include "methods/correctors/consensus/anchor_judgement.hpp"
 #include "methods/correctors/ledger/ledger_verdict.hpp"
 #include "methods/correctors/ledger/odometry_errors.hpp"
 #include "methods/correctors/ledger/solution.hpp"
@@ -53,6 +55,7 @@ class LedgerBuilder {
     settings_.progress("judging " + std::to_string(out_.rows.size()) + " closures");
     add_judgement(problem_, out_);
     out_.verdict = verdict_of(out_);
+    auto anchors = use_agreeing_anchors();
     set_places();
     settings_.progress("solving with all closures");
     const bool is_split = out_.verdict == LedgerVerdict::disagrees;
@@ -67,6 +70,7 @@ class LedgerBuilder {
     }
     summarise();
     if (is_contradicted(out_.verdict)) solve_without_suspects(all.at);
+    out_.anchors = std::move(anchors);
     return std::move(out_);
   }
 
@@ -83,6 +87,16 @@ class LedgerBuilder {
 
   /// The pairs within a part fill the factor, so that parts are smaller if there are many.
   PartSize part_size() const { return {.closures = is_large() ? 8UL : 24UL}; }
+
+  /// Removes the anchors that do not agree, so that they are in no solution.
+  std::optional<consensus::AnchorJudgement> use_agreeing_anchors() {
+    if (problem_.anchors.empty()) return std::nullopt;
+    settings_.progress("judging " + std::to_string(problem_.anchors.size()) + " anchors");
+    const ClosureJudgement closures = out_.judgement.value_or(ClosureJudgement{});
+    consensus::AnchorJudgement found = consensus::judge_anchors(problem_, closures);
+    problem_.anchors = consensus::used_anchors(problem_.anchors, found);
+    return found;
+  }
 
   void set_places() {
     parts_ = closure_parts(problem_.closures, part_size());

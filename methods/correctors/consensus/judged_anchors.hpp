@@ -1,0 +1,37 @@
+/// What is found about the anchors of a problem.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "datasets/core/anchor.hpp"
+
+namespace loopbench::methods::consensus {
+
+struct JudgedAnchor {
+  bool agrees = true;
+  /// Log odds of true over an outlier, given all others that agree [-]; 0: they do not predict it.
+  double log_odds = 0.0;
+  double metres = 0.0;  ///< distance from the position that the others predict
+};
+
+struct AnchorJudgement {
+  std::vector<JudgedAnchor> anchors;  ///< one per anchor of the problem
+  double factor = 1.0;                ///< on their stated deviations [-]
+  double odometry = 1.0;              ///< on the deviations of the odometry [-]
+  std::size_t agreeing = 0;
+  double evidence = 0.0;   ///< log odds of those that agree, summed [-]
+  bool is_decided = true;  ///< none is dropped, or more than half agree with enough evidence
+};
+
+/// The anchors that are used: those that agree, none if nothing is decided. O(anchors).
+inline std::vector<Anchor> used_anchors(const std::vector<Anchor>& anchors,
+                                        const AnchorJudgement& judgement) {
+  std::vector<Anchor> out;
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    if (judgement.is_decided && judgement.anchors[i].agrees) out.push_back(anchors[i]);
+  }
+  return out;
+}
+
+}  // namespace loopbench::methods::consensus
