@@ -56,25 +56,20 @@ TEST(Packed, ThinsWithBothEndsKept) {
   EXPECT_TRUE(subsampled_indices(0, 5).empty());
 }
 
-TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
-  ReportContent content;
-  for (int i = 0; i < 20; ++i) {  // five repeats of four methods
-    CellRow& cell = content.shown_cells.emplace_back();
-    cell.sequence = "room";
-    cell.repeat = i / 4;
-  }
-  const auto is_thinned = [&](double bytes, std::size_t points, std::size_t repeats) {
-    const Thinning out = thinning_for(content, bytes);
-    EXPECT_EQ(out.repeats, repeats) << bytes;
-    EXPECT_NEAR(static_cast<double>(out.points), static_cast<double>(points), 1.0) << bytes;
+TEST(Thinning, LeavesOutRepeatsThenDrawsCoarserCurves) {
+  const std::vector<double> repeats{1000.0, 1000.0, 500.0};
+  const auto is_thinned = [&](double bytes, double coarser, std::size_t kept) {
+    const Thinning out = thinning_for(repeats, bytes);
+    EXPECT_EQ(out.repeats, kept) << bytes;
+    EXPECT_NEAR(out.deviation, coarser * kTraceDeviation, 1e-12) << bytes;
   };
-  constexpr double kPoint = 14.0;  // [bytes]
-  is_thinned(1e9, 400, 5);
-  is_thinned(20 * 150 * kPoint, 150, 5);
-  is_thinned(20 * 90 * kPoint, 150, 3);
-  is_thinned(4 * 120 * kPoint, 120, 1);
-  is_thinned(4 * 50 * kPoint, 50, 1);
-  is_thinned(0.0, 10, 1);
+  is_thinned(1e9, 1.0, 3);
+  is_thinned(2500.0, 1.0, 3);
+  is_thinned(2499.0, 1.0, 2);
+  is_thinned(1000.0, 1.0, 1);
+  is_thinned(500.0, 2.0, 1);
+  EXPECT_EQ(thinning_for(repeats, 0.0), thinning_for(repeats, 1e-9));
+  EXPECT_EQ(thinning_for({}, 0.0).repeats, 1u);
 }
 
 TEST(DefaultMethods, AreTheBaselineTheBestAndTheBestWithoutASmoother) {

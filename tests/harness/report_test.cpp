@@ -83,7 +83,7 @@ TEST_F(OfASweep, HoldsScoresAndTracesOfEveryRepeat) {
   EXPECT_EQ(all["scores"]["cells"].size(), 36u);  // 2 sequences, 6 methods, 3 repeats
   EXPECT_EQ(all["scores"]["baseline"], "straight");
   EXPECT_EQ(all["traces"]["cells"].size(), 24u);  // 2 sequences, 4 methods that ran, 3 repeats
-  EXPECT_EQ(all["traces"]["grids"].size(), 2u);   // all methods of a sequence share their stamps
+  EXPECT_EQ(all["traces"]["sequences"].size(), 2u);
   const nlohmann::json& cell = all["scores"]["cells"][0];
   const auto found = std::ranges::find_if(content_->records, [](const Record& r) {
     return r.cell->position == content_->cells[0].position && r.kind->metric == "ate";

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "datasets/core/trajectory.hpp"
-#include "harness/sweep/model/trace.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/euler.hpp"
 
@@ -71,7 +70,7 @@ inline constexpr std::size_t kMostRows = 1000;
 /// Keeps kMostRows evenly spaced rows; between two of them the least and the greatest value of x,
 /// y, z and each column of `peaks`, so that no peak is lost; and as many others as it takes that no
 /// position is farther than a thousandth of the largest extent from the drawn curve. Curves that
-/// are thin already stay as they are. O(rows log rows) usually.
+/// are thin already stay as they are. O(rows log rows).
 void thin(DrawnCurve& curve, const std::vector<std::string>& peaks = {});
 
 }  // namespace loopbench::harness

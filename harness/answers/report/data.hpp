@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "harness/answers/report/report.hpp"
+#include "harness/sweep/model/trace.hpp"
 
 namespace loopbench::harness {
 
@@ -25,21 +26,23 @@ nlohmann::json scores_json(const ReportContent& content);
 
 /// Amount of trace data in the report.
 struct Thinning {
-  std::size_t points = 0;   ///< maximum per cell
-  std::size_t repeats = 1;  ///< of each sequence, the first ones
+  double deviation = kTraceDeviation;  ///< of curves, in shares of their figures
+  std::size_t repeats = 1;             ///< of each sequence, the first ones
 
   bool operator==(const Thinning&) const = default;
 };
 
-/// As much as takes about `bytes`: at most all repeats with as many points as a screen shows. Takes
-/// repeats away while a cell would have fewer points than a smooth curve needs. The least amount is
-/// one repeat with kLeastPoints (drawn.cpp).
-Thinning thinning_for(const ReportContent& content, double bytes);
+/// Bytes on the page of the traces of the first, second, ... repeats of all shown sequences.
+std::vector<double> trace_bytes(const ReportContent& content);
 
-/// {sequences, grids, cells} from the traces. Sequences: reference, and for each repeat closures,
-/// with stored_ledger() and the keyframes before correction if there is one.
-/// Cells: grid, errors and sections of the path; the evaluation times of a cell are in its grid,
-/// which cells share.
+/// As much as takes about `bytes`: as many repeats as fit (see trace_bytes()) with curves as in the
+/// store; if one does not fit, coarser curves. The least amount is that for zero bytes.
+Thinning thinning_for(const std::vector<double>& repeats, double bytes);
+
+/// {sequences, cells} from the traces, poses and values as base64 of packed columns
+/// (harness/sweep/model/packed_columns.hpp). Sequences: path of the reference, and for each repeat
+/// closures, with stored_ledger() and the keyframes before correction if there is one. Cells:
+/// samples, evaluation times, values of metrics and sections of the path.
 nlohmann::json traces_json(const ReportContent& content, const Thinning& thinning);
 
 /// Base64 of RFC 4648, with padding.

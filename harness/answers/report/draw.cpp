@@ -114,26 +114,22 @@ DrawnCurve curve_of(const SequenceTrace& trace) {
   for (const TracePose& p : trace.reference) {
     add_position(out, origin_of(trace) + Vector3(p.x, p.y, p.z));
   }
+  out.is_thin = true;
   return out;
 }
 
 /// Distances are along the path of the reference.
 DrawnCurve curve_of(const CellTrace& trace, const Vector3& origin) {
   DrawnCurve out;
-  std::vector<double>& distance = out.columns["distance"];
-  Vector3 before = Vector3::Zero();
   for (const TraceSample& s : trace.samples) {
-    const Vector3 position(s.estimate.x, s.estimate.y, s.estimate.z);
-    const Vector3 expected = position - Vector3(s.error_x, s.error_y, s.error_z);
-    distance.push_back(distance.empty() ? 0.0 : distance.back() + (expected - before).norm());
-    before = expected;
-    add_position(out, origin + position);
+    add_position(out, origin + Vector3(s.estimate.x, s.estimate.y, s.estimate.z));
+    out.columns["distance"].push_back(s.estimate.distance);
     out.columns["error_x"].push_back(s.error_x);
     out.columns["error_y"].push_back(s.error_y);
     out.columns["error_z"].push_back(s.error_z);
     out.columns["angle"].push_back(s.error_angle);
   }
-  out.peaks = {"error_x", "error_y", "error_z", "angle"};
+  out.is_thin = true;  // has no more poses than its curves need
   return out;
 }
 

@@ -9,40 +9,18 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostPointsOfACell = 400;  // per cell: screen resolution
-constexpr std::size_t kGoodPoints = 100;         // fewer make curves look like polygons
-constexpr std::size_t kLeastPoints = 10;         // minimum for a curve
-constexpr std::size_t kMostClosures = 200;       // per sequence; more hide the trajectory
-constexpr std::size_t kMostSections = 600;       // per cell and kind; more are thinner than a pixel
-constexpr double kBytesOfAPoint = 14.0;  // four 16-bit words in base64, and a share of grids
+constexpr std::size_t kEvenPoints = 400;    // of references: screen resolution
+constexpr std::size_t kMostClosures = 200;  // per sequence; more hide the trajectory
+constexpr std::size_t kMostSections = 600;  // per cell and kind; more are thinner than a pixel
+constexpr double kMostDeviation = 0.2;      // of curves that cannot be thinner
 
 using Column = std::vector<double>;
 
-struct DrawnPath {
-  Column t, x, y, z;
-
-  void add(double stamp, const Vector3& position) {
-    t.push_back(stamp);
-    x.push_back(position.x());
-    y.push_back(position.y());
-    z.push_back(position.z());
-  }
-};
-
-nlohmann::json path_json(const DrawnPath& path) {
-  return {
-      {"t", packed(path.t)}, {"x", packed(path.x)}, {"y", packed(path.y)}, {"z", packed(path.z)}};
+std::string path_json(const std::vector<TracePose>& poses) {
+  return base64(packed_items(thinned(poses, kEvenPoints), kFineSteps));
 }
 
-nlohmann::json path_json(const std::vector<TracePose>& poses, std::size_t most) {
-  DrawnPath drawn;
-  for (const std::size_t i : subsampled_indices(poses.size(), most)) {
-    drawn.add(poses[i].stamp, {poses[i].x, poses[i].y, poses[i].z});
-  }
-  return path_json(drawn);
-}
-
-nlohmann::json closures_json(const SequenceTrace& trace, std::size_t most) {
+nlohmann::json closures_json(const SequenceTrace& trace) {
   constexpr int kDigits = 7;
   nlohmann::json closures = nlohmann::json::array();
   for (const std::size_t i : subsampled_indices(trace.closures.size(), kMostClosures)) {
@@ -52,39 +30,17 @@ nlohmann::json closures_json(const SequenceTrace& trace, std::size_t most) {
   nlohmann::json out{{"closures", std::move(closures)}, {"all", trace.closures.size()}};
   if (trace.ledger.empty()) return out;
   out["ledger"] = trace.ledger;
-  out["keyframes"] = path_json(trace.keyframes, most);
+  out["keyframes"] = path_json(trace.keyframes);
   return out;
 }
 
-struct CellErrors {
-  DrawnPath reference;  ///< at the evaluated poses
-  Column x, y, z, angle;
-};
-
-CellErrors errors(const CellTrace& trace, std::size_t most) {
-  CellErrors out;
-  for (const std::size_t i : subsampled_indices(trace.samples.size(), most)) {
-    const TraceSample& s = trace.samples[i];
-    // In single precision, as it is stored.
-    const float x = s.estimate.x - s.error_x, y = s.estimate.y - s.error_y;
-    out.reference.add(s.estimate.stamp, {x, y, s.estimate.z - s.error_z});
-    out.x.push_back(s.error_x);
-    out.y.push_back(s.error_y);
-    out.z.push_back(s.error_z);
-    out.angle.push_back(s.error_angle);
-  }
-  return out;
-}
-
-/// [{name, unit, v}] of the poses of errors().
-nlohmann::json values_json(const CellTrace& trace, std::size_t most) {
+/// [{name, unit, v}] of the poses of the trace.
+nlohmann::json values_json(const CellTrace& trace) {
   nlohmann::json out = nlohmann::json::array();
   for (const TraceValues& each : trace.values) {
-    Column drawn;
-    for (const std::size_t i : subsampled_indices(each.values.size(), most)) {
-      drawn.push_back(each.values[i]);
-    }
-    out.push_back({{"name", each.name}, {"unit", each.unit}, {"v", packed(drawn)}});
+    out.push_back({{"name", each.name},
+                   {"unit", each.unit},
+                   {"v", base64(packed_items(each.values, kDrawnSteps))}});
   }
   return out;
 }
@@ -142,27 +98,36 @@ std::vector<std::size_t> ranks_of_repeats(const std::vector<CellRow>& cells) {
 
 }  // namespace
 
-Thinning thinning_for(const ReportContent& content, double bytes) {
-  Thinning out{0, 1};
+std::vector<double> trace_bytes(const ReportContent& content) {
+  constexpr double kBase64 = 4.0 / 3.0;
+  Traces traces(content.store);
+  const std::map<std::int64_t, std::size_t> sizes = traces.sizes();
   const std::vector<std::size_t> ranks = ranks_of_repeats(content.shown_cells);
-  for (const std::size_t rank : ranks) out.repeats = std::max(out.repeats, rank + 1);
-  for (;; out.repeats = (out.repeats + 1) / 2) {
-    const auto cells =
-        std::ranges::count_if(ranks, [&](std::size_t rank) { return rank < out.repeats; });
-    const double points =
-        bytes / (kBytesOfAPoint * static_cast<double>(std::max<std::ptrdiff_t>(1, cells)));
-    out.points = static_cast<std::size_t>(
-        std::clamp(points, double{kLeastPoints}, double{kMostPointsOfACell}));
-    if (out.points >= kGoodPoints || out.repeats == 1) return out;
+  std::vector<double> out;
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    out.resize(std::max(out.size(), ranks[i] + 1), 0.0);
+    const auto size = sizes.find(content.shown_cells[i].position);
+    if (size != sizes.end()) out[ranks[i]] += kBase64 * static_cast<double>(size->second);
   }
+  return out;
+}
+
+Thinning thinning_for(const std::vector<double>& repeats, double bytes) {
+  Thinning out;
+  double sum = repeats.empty() ? 0.0 : repeats.front();
+  if (sum > bytes) {
+    out.deviation =
+        bytes > 0.0 ? std::min(kMostDeviation, out.deviation * sum / bytes) : kMostDeviation;
+    return out;
+  }
+  while (out.repeats < repeats.size() && (sum += repeats[out.repeats]) <= bytes) ++out.repeats;
+  return out;
 }
 
 nlohmann::json traces_json(const ReportContent& content, const Thinning& thinning) {
   Traces traces(content.store);
   std::map<std::string, nlohmann::json> sequences;  // references, and closures of their repeats
   std::map<std::string, double> origins;            // of time [s]
-  std::map<std::pair<std::string, Column>, std::size_t> grid_of;  // sequence and stamps
-  nlohmann::json grids = nlohmann::json::array();
   nlohmann::json cells = nlohmann::json::object();
   const std::vector<std::size_t> ranks = ranks_of_repeats(content.shown_cells);
   for (std::size_t i = 0; i < ranks.size(); ++i) {
@@ -173,24 +138,17 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
     if (sequence.is_null() || !sequence["runs"].contains(repeat)) {
       if (const std::optional<SequenceTrace> trace = traces.sequence(cell.position)) {
         origins[cell.sequence] = trace->origin.stamp;
-        if (sequence.is_null()) sequence = path_json(trace->reference, thinning.points);
-        sequence["runs"][repeat] = closures_json(*trace, thinning.points);
+        if (sequence.is_null()) sequence["path"] = path_json(trace->reference);
+        sequence["runs"][repeat] = closures_json(*trace);
       }
     }
-    const std::optional<CellTrace> trace = traces.cell(cell.position);
+    std::optional<CellTrace> trace = traces.cell(cell.position);
     if (!trace || trace->samples.empty()) continue;
-    const CellErrors e = errors(*trace, thinning.points);
-    const auto [grid, is_new] =
-        grid_of.emplace(std::pair{cell.sequence, e.reference.t}, grid_of.size());
-    if (is_new) grids.push_back(path_json(e.reference));
+    if (thinning.deviation > kTraceDeviation) trace = thinned(*trace, thinning.deviation);
     nlohmann::json& drawn = cells[std::to_string(i)];
-    drawn = {{"grid", grid->second},
-             {"times", to_text(trace->times)},
-             {"x", packed(e.x)},
-             {"y", packed(e.y)},
-             {"z", packed(e.z)},
-             {"angle", packed(e.angle)}};
-    if (!trace->values.empty()) drawn["values"] = values_json(*trace, thinning.points);
+    drawn = {{"times", to_text(trace->times)},
+             {"samples", base64(packed_items(trace->samples, kDrawnSteps))}};
+    if (!trace->values.empty()) drawn["values"] = values_json(*trace);
     const std::vector<methods::Section> sections = traces.sections(cell.position);
     const auto origin = origins.find(cell.sequence);
     if (!sections.empty() && origin != origins.end()) {
@@ -202,7 +160,7 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
     const auto found = sequences.find(name);
     all.push_back(found == sequences.end() ? nullptr : std::move(found->second));
   }
-  return {{"sequences", std::move(all)}, {"grids", std::move(grids)}, {"cells", std::move(cells)}};
+  return {{"sequences", std::move(all)}, {"cells", std::move(cells)}};
 }
 
 }  // namespace loopbench::harness

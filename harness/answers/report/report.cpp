@@ -98,11 +98,12 @@ std::string thinned_html(const ReportContent& content, std::size_t bytes) {
                       {"scripts", script_elements(nonce)}};
   std::size_t taken = data.size();
   for (const auto& [name, text] : values) taken += text.size();
-  const Thinning least = thinning_for(content, 0.0);
+  const std::vector<double> repeats = trace_bytes(content);
+  const Thinning least = thinning_for(repeats, 0.0);
   const auto available = static_cast<double>(bytes - std::min(bytes, taken));
   double room = available;
   for (;;) {
-    const Thinning thinning = thinning_for(content, room);
+    const Thinning thinning = thinning_for(repeats, room);
     values["data"] = "{" + data + data_text("traces", traces_json(content, thinning)) + "}";
     std::string html = filled(asset_text("page/report.html"), values);
     if (html.size() <= bytes || thinning == least) return html;

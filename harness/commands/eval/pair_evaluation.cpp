@@ -147,8 +147,8 @@ struct PairEvaluation {
     if (files.arguments.keeps_traces() && row.protocol == 0) {
       const StampedPose& first = reference.poses.front();
       const Vector3& p = first.world_from_body.translation;
-      out.result.trace = cell_trace(evaluation, row.times, {first.stamp, p.x(), p.y(), p.z()});
-      add_pose_values(out.result, row);
+      out.result.trace = cell_trace(
+          evaluation, row.times, {first.stamp, p.x(), p.y(), p.z()}, pose_values(out.result, row));
     }
     checks.get();
     note_missing_segments(own, row.protocol);

@@ -81,14 +81,7 @@ inline std::optional<double> variation(const std::vector<double>& values) {
   return std::sqrt(squares / (n - 1.0)) / mean;
 }
 
-/// What a score states for each evaluated pose.
-struct PoseValues {
-  std::string name;  ///< label of the metric, with relation and axis
-  std::string unit;
-  std::vector<double> values;  ///< one for each pair
-};
-
-/// Those of the scores under the protocol and times of `row`.
+/// What the scores under the protocol and times of `row` state for each evaluated pose.
 inline std::vector<PoseValues> pose_values(const CellResult& result, const ScoreResult& row) {
   std::vector<PoseValues> out;
   for (const ScoreResult& each : result.scores) {
@@ -100,13 +93,6 @@ inline std::vector<PoseValues> pose_values(const CellResult& result, const Score
     out.push_back({each.label + relation + axis, score.unit, score.per_pose});
   }
   return out;
-}
-
-/// Adds them to the trace.
-inline void add_pose_values(CellResult& result, const ScoreResult& row) {
-  for (PoseValues& each : pose_values(result, row)) {
-    add_values(result.trace, std::move(each.name), std::move(each.unit), each.values);
-  }
 }
 
 }  // namespace loopbench::harness

@@ -1,42 +1,39 @@
-/// Subsampled poses of a cell or sequence for the report's plots.
+/// Poses of a cell or sequence for the report's plots: as many as its curves need.
 ///
-/// Plain structs of float32, stored as raw memory, little endian, one after another
-/// (harness/sweep/store/traces.hpp reads them). Stamps and positions are relative to the origin of
-/// the sequence, so that float32 is sufficient far from zero.
+/// Plain structs of float32. Stamps and positions are relative to the origin of the sequence, so
+/// that float32 is sufficient far from zero. Stores have them rounded and compressed
+/// (harness/sweep/model/packed_columns.hpp, a column for each member in order), but closures, which
+/// are raw memory, little endian; harness/sweep/store/traces.hpp reads them.
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "datasets/core/sequence.hpp"
+#include "harness/sweep/model/kept_rows.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
 
-/// Maximum number of stored samples; longer lists are subsampled evenly, including both ends.
+/// Deviation of stored curves from all their poses, in shares of a figure; with the rounding of
+/// stored numbers, it stays below 0.002.
+inline constexpr double kTraceDeviation = 1.8e-3;
+
+/// Evenly spaced poses of the trajectories of a sequence; more are kept where their curves need it.
 inline constexpr std::size_t kTraceSamples = 2000;
 
-/// At most `most` evenly spaced indices of 0..count-1, including both ends.
-inline std::vector<std::size_t> subsampled_indices(std::size_t count, std::size_t most) {
-  const std::size_t kept = std::min(count, most);
-  std::vector<std::size_t> out(kept);
-  for (std::size_t i = 0; i < kept; ++i) out[i] = kept == 1 ? 0 : i * (count - 1) / (kept - 1);
-  return out;
-}
-
-/// 8 floats.
+/// 5 floats.
 struct TracePose {
-  float stamp = 0;                       ///< relative to the origin [s]
-  float x = 0, y = 0, z = 0;             ///< [m]
-  float qx = 0, qy = 0, qz = 0, qw = 1;  ///< world_from_body
+  float stamp = 0;            ///< relative to the origin [s]
+  float distance = 0;         ///< along the path from its first pose, over all poses [m]
+  float x = 0, y = 0, z = 0;  ///< [m]
 };
 
-/// 12 floats: an evaluated pose of the estimate and its error.
+/// 9 floats: an evaluated pose of the estimate and its error.
 struct TraceSample {
-  TracePose estimate;                           ///< aligned; with the stamp of its reference
+  TracePose estimate;  ///< aligned; with the stamp and the distance of its reference
   float error_x = 0, error_y = 0, error_z = 0;  ///< estimate minus reference [m]
-  float error_angle = 0;                        ///< rotation error [deg]
+  float error_angle = 0;                        ///< rotation error [deg]; NaN: without rotations
 };
 
 /// 8 floats: the keyframes of a loop closure, before correction.
@@ -45,7 +42,7 @@ struct TraceClosure {
   float from_x = 0, from_y = 0, from_z = 0;  ///< [m]
   float to_x = 0, to_y = 0, to_z = 0;        ///< [m]
 };
-static_assert(sizeof(TracePose) == 32 && sizeof(TraceSample) == 48 && sizeof(TraceClosure) == 32);
+static_assert(sizeof(TracePose) == 20 && sizeof(TraceSample) == 36 && sizeof(TraceClosure) == 32);
 
 /// Origin of stamps and positions in a sequence's traces: its first reference pose.
 struct TraceOrigin {
@@ -75,16 +72,30 @@ struct CellTrace {
   std::vector<TraceValues> values{};
 };
 
+/// What a score states for each evaluated pose.
+struct PoseValues {
+  std::string name;  ///< label of the metric, with relation and axis
+  std::string unit;
+  std::vector<double> values;  ///< one for each pair
+};
+
 TraceOrigin trace_origin(const Sequence& sequence);
 SequenceTrace sequence_trace(const Sequence& sequence);
+
+/// The evaluated poses and the values of metrics there. Between two poses that are kept, each
+/// curve is a line that deviates from all poses by at most kTraceDeviation of its figure: positions
+/// (in shares of their largest extent; heights also if they are drawn enlarged), and the errors and
+/// values over time and distance (in shares of their own range, at least 1e-6). O(n log n).
 CellTrace cell_trace(const metrics::Evaluation& evaluation,
                      metrics::Times times,
-                     const TraceOrigin& origin);
+                     const TraceOrigin& origin,
+                     const std::vector<PoseValues>& values);
 
-/// Adds values of a metric, one for each pose that cell_trace() evaluated.
-void add_values(CellTrace& trace,
-                std::string name,
-                std::string unit,
-                const std::vector<double>& per_pose);
+/// The same with fewer poses: each curve deviates by at most `deviation` from the given one.
+CellTrace thinned(const CellTrace& trace, double deviation);
+
+/// At least `even` evenly spaced poses, and those without which a curve would deviate by more than
+/// half of kTraceDeviation: stores and pages thin one after the other.
+std::vector<TracePose> thinned(const std::vector<TracePose>& poses, std::size_t even);
 
 }  // namespace loopbench::harness

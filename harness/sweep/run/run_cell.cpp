@@ -105,8 +105,8 @@ void evaluate_curve(CellResult& result,
     const bool densest = row.times == metrics::Times::dense ||
                          std::ranges::count(sweep.times, metrics::Times::dense) == 0;
     if (sweep.traces && row.protocol == 0 && densest) {
-      result.trace = cell_trace(evaluation, row.times, trace_origin(sequence));
-      add_pose_values(result, row);
+      result.trace =
+          cell_trace(evaluation, row.times, trace_origin(sequence), pose_values(result, row));
     }
   });
   // No pairs, or no unique alignment.

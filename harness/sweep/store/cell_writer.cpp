@@ -106,10 +106,12 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
 
 void CellWriter::write_trace(std::int64_t id, const CellTrace& trace) {
   if (trace.samples.empty()) return;
-  trace_.bind(id, to_text(trace.times), Blob{bytes_of(trace.samples)}).run();
+  const std::string samples = packed_items(trace.samples, kDrawnSteps);
+  trace_.bind(id, to_text(trace.times), Blob{samples}).run();
   std::int64_t number = 0;
   for (const TraceValues& each : trace.values) {
-    pose_value_.bind(id, number++, each.name, each.unit, Blob{bytes_of(each.values)}).run();
+    const std::string values = packed_items(each.values, kDrawnSteps);
+    pose_value_.bind(id, number++, each.name, each.unit, Blob{values}).run();
   }
 }
 
@@ -236,14 +238,16 @@ void CellWriter::write_metadata(const Cell& cell,
   const SequenceTrace& trace = metadata.trace;
   if (trace.keyframes.empty()) return;
   const TraceOrigin& origin = trace.origin;
+  const std::string reference = packed_items(trace.reference, kFineSteps);
+  const std::string keyframes = packed_items(trace.keyframes, kFineSteps);
   insert_into(database_, "sequence_trace", "INSERT OR REPLACE")
       .bind_hashed(sequence_key,
                    origin.stamp,
                    origin.x,
                    origin.y,
                    origin.z,
-                   Blob{bytes_of(trace.reference)},
-                   Blob{bytes_of(trace.keyframes)},
+                   Blob{reference},
+                   Blob{keyframes},
                    Blob{bytes_of(trace.closures)},
                    trace.ledger)
       .run();

@@ -12,7 +12,7 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 19;
+inline constexpr int kSchemaVersion = 20;
 
 /// The columns of statistics but count: "rmse,", with texts before and after each name, in one
 /// line, or percentiles after `gap`.
@@ -182,14 +182,14 @@ inline const std::string kSchema =
     end_stamp REAL NOT NULL,           -- [s]
     what TEXT NOT NULL,                -- choice of the method; can be empty
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
-  CREATE TABLE trace (                 -- blobs: float32, little endian, see harness/sweep/model/trace.hpp
+  CREATE TABLE trace (                 -- blobs: packed columns, see harness/sweep/model/trace.hpp
     cell INTEGER PRIMARY KEY REFERENCES cell(id),
     times TEXT NOT NULL,               -- keyframes | dense
-    samples BLOB NOT NULL);            -- TraceSample, 12 floats each, under the first protocol
+    samples BLOB NOT NULL);            -- TraceSample, 9 columns, 4096 steps; first protocol
   CREATE TABLE pose_value (            -- of a metric, for each sample of the trace
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
     name TEXT NOT NULL, unit TEXT NOT NULL,
-    value BLOB NOT NULL,               -- float32
+    value BLOB NOT NULL,               -- a packed column, 4096 steps
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE sequence_trace (
     sequence_key TEXT PRIMARY KEY,
@@ -198,9 +198,9 @@ inline const std::string kSchema =
                                        -- relative to it
     origin_y REAL NOT NULL,
     origin_z REAL NOT NULL,
-    reference BLOB NOT NULL,           -- TracePose, 8 floats each
-    keyframes BLOB NOT NULL,           -- TracePose, in the tracker's world frame
-    closures BLOB NOT NULL,            -- TraceClosure, 8 floats each
+    reference BLOB NOT NULL,           -- TracePose, 5 columns, 65534 steps
+    keyframes BLOB NOT NULL,           -- TracePose, likewise, in the tracker's world frame
+    closures BLOB NOT NULL,            -- TraceClosure, 8 float32 each
     ledger TEXT NOT NULL,              -- what the closures state about each other: a sentence, then
                                        -- the lines of `loops --csv`
     row_hash INTEGER NOT NULL);

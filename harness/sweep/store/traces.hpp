@@ -4,11 +4,14 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "datasets/core/error.hpp"
+#include "harness/sweep/model/packed_columns.hpp"
 #include "harness/sweep/model/trace.hpp"
 #include "harness/sweep/store/open.hpp"
 #include "harness/sweep/store/stored_cells.hpp"
@@ -27,6 +30,9 @@ class Traces {
   /// Trace of a cell; nullopt if none is stored.
   std::optional<CellTrace> cell(std::int64_t position);
 
+  /// Bytes of the packed poses and values of each cell with a trace, by position.
+  std::map<std::int64_t, std::size_t> sizes();
+
   /// Sections of the path as reported by the method; empty without a report. Stamps [s].
   std::vector<methods::Section> sections(std::int64_t position);
 
@@ -37,13 +43,31 @@ class Traces {
   Database database_;
 };
 
+/// Items of floats as columns; see harness/sweep/model/packed_columns.hpp.
+template <class Item>
+std::string packed_items(const std::vector<Item>& items, unsigned steps) {
+  constexpr std::size_t kColumns = sizeof(Item) / sizeof(float);
+  std::vector<float> rows(items.size() * kColumns);
+  if (!rows.empty()) std::memcpy(rows.data(), items.data(), rows.size() * sizeof(float));
+  return packed_columns(rows, kColumns, steps);
+}
+
+/// The items that packed_items() packed. Throws InputError if the bytes are damaged.
+template <class Item>
+std::vector<Item> unpacked_items(std::string_view bytes, unsigned steps) {
+  const std::vector<float> rows = unpacked_columns(bytes, sizeof(Item) / sizeof(float), steps);
+  std::vector<Item> out(rows.size() * sizeof(float) / sizeof(Item));
+  if (!out.empty()) std::memcpy(out.data(), rows.data(), rows.size() * sizeof(float));
+  return out;
+}
+
+static_assert(std::endian::native == std::endian::little);
+
 /// Raw memory of a list of trace structs; valid as long as the list.
 template <class Item>
 std::string_view bytes_of(const std::vector<Item>& items) {
   return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(Item)};
 }
-
-static_assert(std::endian::native == std::endian::little);
 
 template <class Item>
 std::vector<Item> from_blob(std::string_view bytes) {
@@ -77,14 +101,27 @@ inline std::optional<CellTrace> Traces::cell(std::int64_t position) {
   CellTrace out;
   row.integer();  // cell
   out.times = from_text<metrics::Times>(row.text()).value_or(metrics::Times::dense);
-  out.samples = from_blob<TraceSample>(row.view());
+  out.samples = unpacked_items<TraceSample>(row.view(), kDrawnSteps);
   Statement values = database_.prepare(rows_of_cell("pose_value"));
   values.bind(position);
   std::int64_t cell = 0, number = 0;
   while (values.step()) {
     TraceValues& added = out.values.emplace_back();
     values.read(cell, number, added.name, added.unit);
-    added.values = from_blob<float>(values.view());
+    added.values = unpacked_items<float>(values.view(), kDrawnSteps);
+  }
+  return out;
+}
+
+inline std::map<std::int64_t, std::size_t> Traces::sizes() {
+  std::map<std::int64_t, std::size_t> out;
+  Statement row = database_.prepare(
+      "SELECT position, sum(size) FROM (SELECT cell, length(samples) AS size FROM trace UNION ALL "
+      "SELECT cell, length(value) FROM pose_value) JOIN cell ON cell.id = cell WHERE position IS "
+      "NOT NULL GROUP BY position");
+  while (row.step()) {
+    const std::int64_t position = row.integer();
+    out.emplace(position, row.integer());
   }
   return out;
 }
@@ -114,8 +151,8 @@ inline std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
   }
   SequenceTrace out;
   row.read(out.origin.stamp, out.origin.x, out.origin.y, out.origin.z);
-  out.reference = from_blob<TracePose>(row.view());
-  out.keyframes = from_blob<TracePose>(row.view());
+  out.reference = unpacked_items<TracePose>(row.view(), kFineSteps);
+  out.keyframes = unpacked_items<TracePose>(row.view(), kFineSteps);
   out.closures = from_blob<TraceClosure>(row.view());
   out.ledger = row.text();
   return out;

@@ -42,11 +42,14 @@
     });
   };
 
-  const strip = (host, trace, parts, names, title) => {
+  const strip = (host, trace, reference, parts, names, title) => {
     host.replaceChildren();
     const by = R.state.abscissa;
     const at = (t) => trace[by][R.placeAt(trace.t, t)];
-    const speed = trace.t.map((t, i) => (i === 0 ? NaN : (trace.s[i] - trace.s[i - 1]) / (t - trace.t[i - 1])));
+    const distance = d3.scaleLinear(reference.t, reference.s).clamp(true);
+    const [first, last] = d3.extent(trace.t);
+    const times = d3.range(first, last + 1e-9, (last - first) / 400 || 1);
+    const speed = times.map((t, i) => (i === 0 ? NaN : (distance(t) - distance(times[i - 1])) / (t - times[i - 1])));
     const x = { label: by === "s" ? "path length of the reference [m]" : "time [s]", domain: [0, trace[by][trace[by].length - 1]] };
     R.caption(host, "Along the path", title);
     R.chart(host, {
@@ -58,7 +61,7 @@
           group.append("line").attr("class", "zero").attr("x1", sx(at(begin))).attr("x2", sx(at(begin))).attr("y1", -1e4).attr("y2", 1e4).style("opacity", 0.5);
         }
         group.append("path").attr("class", "curve").style("stroke", "var(--ink)")
-          .attr("d", d3.line().defined((i) => Number.isFinite(speed[i])).x((i) => sx(trace[by][i])).y((i) => sy(speed[i]))(d3.range(speed.length)));
+          .attr("d", d3.line().defined((i) => Number.isFinite(speed[i])).x((i) => sx(at(times[i]))).y((i) => sy(speed[i]))(d3.range(speed.length)));
       },
     });
     R.chart(host, {
@@ -98,6 +101,6 @@
     const names = d3.sort(new Set(parts.flatMap((p) => p.what).filter(Boolean)));
     const title = `${m.label}, ${R.runName(s)}`;
     map(left, trace, parts.find((p) => p.kind === state.kind), names, title);
-    strip(right, trace, parts, names, title);
+    strip(right, trace, R.reference(s), parts, names, title);
   }, "cut");
 })();

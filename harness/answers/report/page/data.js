@@ -32,18 +32,64 @@
     };
   };
 
+  // Columns as harness/sweep/model/packed_columns.hpp packs them.
+  const columns = (text, count, steps) => {
+    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    const view = new DataView(bytes.buffer);
+    const rows = view.getUint32(0, true);
+    let bit = 32;
+    const read = (bits) => {
+      let out = 0;
+      for (; bits > 0; --bits, ++bit) out = 2 * out + ((bytes[bit >> 3] >> (7 - (bit & 7))) & 1);
+      return out;
+    };
+    let first = null; // words of the first column
+    return Array.from({ length: count }, () => {
+      const at = (bit + 7) >> 3;
+      const [low, high, order] = [view.getFloat32(at, true), view.getFloat32(at + 4, true), bytes[at + 8]];
+      bit = 8 * (at + 9);
+      const words = [];
+      const predicted = (i) => {
+        const last = i > 0 ? words[i - 1] : 0;
+        if (order === 1) return last;
+        const slope = last - (i > 1 ? words[i - 2] : 0);
+        const [share, whole] = i > 1 && first ? [first[i] - first[i - 1], first[i - 1] - first[i - 2]] : [1, 1];
+        return Math.max(0, Math.min(steps + 1, last + Math.trunc(whole ? (slope * share) / whole : slope)));
+      };
+      for (let [i, sum, seen] = [0, 1, 1]; i < rows; ++i) {
+        let [k, ones] = [0, 0];
+        while (seen * 2 ** (k + 1) <= sum) ++k;
+        while (ones < 20 && read(1)) ++ones;
+        const number = ones === 20 ? read(24) : ones * 2 ** k + read(k);
+        [sum, seen] = seen === 7 ? [Math.floor((sum + number) / 2), 4] : [sum + number, seen + 1];
+        words.push(predicted(i) + (number % 2 ? -(number + 1) / 2 : number / 2));
+      }
+      first = first || words;
+      return Float64Array.from(words, (word) => (word ? low + (high - low) * ((word - 1) / steps) : NaN));
+    });
+  };
+  const [kDrawnSteps, kFineSteps] = [4096, 65534];
+
   const path = (packed) => {
-    const [t, x, y, z] = ["t", "x", "y", "z"].map((axis) => R.unpack(packed[axis]));
-    const s = new Float64Array(t.length); // distance travelled [m]
-    for (let i = 1; i < t.length; ++i) {
-      s[i] = s[i - 1] + (Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1], z[i] - z[i - 1]) || 0);
-    }
+    const [t, s, x, y, z] = columns(packed, 5, kFineSteps);  // s: distance travelled [m]
     return { t, x, y, z, s };
+  };
+
+  // The columns with rows between them, so that none is farther than 1/400 of the time from the next.
+  const filled = (all) => {
+    const [t] = all;
+    const step = (t[t.length - 1] - t[0]) / 400 || 1;
+    const out = all.map((column) => [column[0]]);
+    for (let i = 1; i < t.length; ++i) {
+      const parts = Math.max(1, Math.ceil((t[i] - t[i - 1]) / step));
+      for (let p = 1; p <= parts; ++p) all.forEach((column, c) => out[c].push(column[i - 1] * (1 - p / parts) + column[i] * (p / parts)));
+    }
+    return out.map((column) => Float64Array.from(column));
   };
 
   const reference = cached((s) => {
     const packed = raw.traces.sequences[s];
-    return packed && { ...path(packed), runs: packed.runs };
+    return packed && { ...path(packed.path), runs: packed.runs };
   });
   // {t, x, y, z, s, closures} of a sequence's reference, with the closures of the selected run, their ledger
   // (text) and the keyframes before correction; or null.
@@ -52,7 +98,6 @@
     const run = found && (found.runs[R.state.repeat] || Object.values(found.runs)[0]);
     return found && { ...found, closures: run.closures, allClosures: run.all, ledger: run.ledger || "", keyframes: run.keyframes && path(run.keyframes) };
   };
-  const grid = cached((g) => path(raw.traces.grids[g]));
 
   const drawn = new Map();
   const placeOf = (s, m, n) => `${s},${m},${n}`;
@@ -66,18 +111,16 @@
   R.repeats = (s) => d3.sort(repeats[s]);
   const errors = cached((i) => {
     const packed = raw.traces.cells[i];
-    const reference = grid(packed.grid);
-    const [ex, ey, ez, a] = ["x", "y", "z", "angle"].map((axis) => R.unpack(packed[axis]));
-    const plus = (u, v) => u.map((value, k) => value + v[k]);
+    const stated = packed.values || [];
+    const [t, s, x, y, z, ex, ey, ez, a, ...values] = filled([
+      ...columns(packed.samples, 9, kDrawnSteps), ...stated.map((each) => columns(each.v, 1, kDrawnSteps)[0])]);
     return {
-      times: packed.times, t: reference.t, s: reference.s, ex, ey, ez, a,
-      x: plus(reference.x, ex), y: plus(reference.y, ey), z: plus(reference.z, ez),
-      norm: ex.map((e, k) => Math.hypot(e, ey[k], ez[k])),
-      values: new Map((packed.values || []).map((each) => [`${each.name} [${each.unit}]`, R.unpack(each.v)])),
+      times: packed.times, t, s, ex, ey, ez, a, x, y, z, norm: ex.map((e, k) => Math.hypot(e, ey[k], ez[k])),
+      values: new Map(stated.map((each, k) => [`${each.name} [${each.unit}]`, values[k]])),
     };
   });
 
-  // The subsampled estimate of a method on the selected run with its errors, or null.
+  // The estimate of a method on the selected run with its errors, or null.
   R.trace = (s, m) => {
     const i = drawn.get(placeOf(s, m, R.state.repeat));
     return i === undefined ? null : errors(i);

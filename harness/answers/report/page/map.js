@@ -82,7 +82,9 @@
       R.caption(host, m.label);
       return R.nothing(host, `This ${R.word} has no trajectory; see the failures.`);
     }
-    const rms = Math.sqrt(d3.mean(trace.norm, (e) => e * e));
+    const squares = d3.pairs(trace.norm, (e, f) => (e * e + f * f) / 2);
+    const seconds = d3.pairs(trace.t, (t, u) => u - t);
+    const rms = Math.sqrt(d3.sum(squares, (e, i) => e * seconds[i]) / d3.sum(seconds)) || d3.max(trace.norm);
     const digits = d3.format(".3~g");
     R.caption(host, m.label, `RMS of the drawn errors ${digits(rms)} m, largest ${digits(d3.max(trace.norm))} m`);
     const levels = Array.from({ length: kLevels }, () => []);
