@@ -256,10 +256,10 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
     sequence.provenance.notes.push_back(fmt::format(
         "{} {} {} not used", count, tag, count == 1 ? "measurement is" : "measurements are"));
   }
-  if (graph.scale_information > 0) {
-    sequence.provenance.notes.push_back(fmt::format(
-        "the information of the scale in {} edges is not used: scales have no weight of their own",
-        graph.scale_information));
+  if (graph.scale_correlations > 0) {
+    sequence.provenance.notes.push_back(
+        fmt::format("the correlations between scale and pose in {} edges are not used",
+                    graph.scale_correlations));
   }
   if (const auto breaks = breaks_at_ids(o.breaks, sequence.problem.ids); !breaks.empty()) {
     sequence.provenance.notes.push_back(breaks_note(sequence.problem, breaks));

@@ -10,6 +10,7 @@
 #include "datasets/core/anchor.hpp"
 #include "datasets/core/factorisations.hpp"
 #include "datasets/core/params.hpp"
+#include "datasets/core/pose_id.hpp"
 #include "datasets/core/se3.hpp"
 #include "datasets/core/trajectory.hpp"
 
@@ -24,6 +25,8 @@ struct Edge {
   /// 1/(m rad), 1/rad^2. Symmetric positive definite.
   Matrix6 information = Matrix6::Identity();
   double scale = 1.0;  ///< scale of `to` relative to `from`; 1 unless the edges are Sim(3)
+  /// Inverse variance of the logarithm of `scale` [-]; 0: not stated.
+  double scale_information = 0.0;
 };
 
 /// All data available to a method. It does not contain the reference.
@@ -39,9 +42,9 @@ struct Problem {
   std::vector<Anchor> anchors = {};
   std::vector<std::int64_t> ids = {};  ///< of the keyframes in their graph; empty: none
 
-  /// For messages: the id of a graph, otherwise the stamp "12.5 s".
+  /// For messages: the id of a graph (`a12` for a symbol of GTSAM), otherwise the stamp "12.5 s".
   std::string name_of(std::size_t keyframe) const {
-    return ids.empty() ? to_text(keyframes[keyframe].stamp) + " s" : std::to_string(ids[keyframe]);
+    return ids.empty() ? to_text(keyframes[keyframe].stamp) + " s" : id_text(ids[keyframe]);
   }
 };
 
@@ -68,6 +71,9 @@ inline void check(const Problem& problem, const std::string& name) {
         throw invalid("refers to a keyframe that does not exist");
       if (!is_finite(edge.from_from_to) || !edge.information.allFinite() || !(edge.scale > 0.0)) {
         throw invalid("is not finite");
+      }
+      if (!(edge.scale_information >= 0.0) || !std::isfinite(edge.scale_information)) {
+        throw invalid("information of the scale is negative or not finite");
       }
       if (std::abs(edge.from_from_to.rotation.norm() - 1.0) > 1e-6) {
         throw invalid("quaternion is not unit");

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,9 +50,8 @@ inline std::vector<std::string> break_words(const std::string& text) {
 }
 
 /// The number that is the whole word. Throws OptionError.
-template <class Number>
-Number number_in(const std::string& word, const char* expected) {
-  Number out{};
+inline double number_in(const std::string& word, const char* expected) {
+  double out = 0.0;
   const char* const end = word.data() + word.size();
   const auto [rest, error] = std::from_chars(word.data(), end, out);
   if (error == std::errc{} && rest == end) return out;
@@ -79,7 +79,7 @@ inline std::vector<std::size_t> breaks_at_stamps(const std::string& breaks,
                                                  double max_diff) {
   std::vector<std::size_t> out;
   for (const std::string& word : break_words(breaks)) {
-    const auto stamp = number_in<double>(word, "the stamp of a pose [s]");
+    const auto stamp = number_in(word, "the stamp of a pose [s]");
     const auto index = nearest_pose(poses, stamp, max_diff);
     if (!index) {
       const auto nearest = nearest_pose(poses, stamp, std::numeric_limits<double>::infinity());
@@ -97,19 +97,22 @@ inline std::vector<std::size_t> breaks_at_stamps(const std::string& breaks,
   return sorted_once(std::move(out));
 }
 
-/// The same for ids of vertices, ascending.
+/// The same for ids of vertices, ascending; symbols of GTSAM are letter and index, a12, or numbers.
 inline std::vector<std::size_t> breaks_at_ids(const std::string& breaks,
                                               const std::vector<std::int64_t>& ids) {
   std::vector<std::size_t> out;
   for (const std::string& word : break_words(breaks)) {
-    const auto id = number_in<std::int64_t>(word, "the id of a vertex");
-    const auto found = std::ranges::lower_bound(ids, id);
-    if (found == ids.end() || *found != id) {
+    const std::optional<std::int64_t> id = id_of(word);
+    if (!id) {
+      throw OptionError("breaks", "breaks: found '" + word + "', expected the id of a vertex");
+    }
+    const auto found = std::ranges::lower_bound(ids, *id);
+    if (found == ids.end() || *found != *id) {
       throw OptionError("breaks",
                         fmt::format("breaks: no vertex has id {}, expected one from {} to {}",
-                                    id,
-                                    ids.empty() ? 0 : ids.front(),
-                                    ids.empty() ? 0 : ids.back()));
+                                    word,
+                                    id_text(ids.empty() ? 0 : ids.front()),
+                                    id_text(ids.empty() ? 0 : ids.back())));
     }
     const auto index = static_cast<std::size_t>(found - ids.begin());
     require_later_pose(index, word);

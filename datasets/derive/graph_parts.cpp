@@ -28,9 +28,13 @@ struct ComposedEdge {
   Pose step;
   double scale;
   Matrix6 covariance;
+  double scale_information;
 
   explicit ComposedEdge(const Edge& edge)
-      : step(edge.from_from_to), scale(edge.scale), covariance(inverse(edge.information)) {}
+      : step(edge.from_from_to),
+        scale(edge.scale),
+        covariance(inverse(edge.information)),
+        scale_information(edge.scale_information) {}
 
   /// Converts translation and covariance of `edge` to the scale of the first pose and appends it.
   void append(const Edge& edge) {
@@ -42,12 +46,14 @@ struct ComposedEdge {
     covariance = transport * covariance * transport.transpose() + added;
     step = normalized(step * next);
     scale *= edge.scale;
+    const double sum = scale_information + edge.scale_information;  // variances are added
+    scale_information *= sum > 0.0 ? edge.scale_information / sum : 0.0;
   }
 
   Edge edge(std::size_t from, std::size_t to) const {
     Matrix6 information = inverse(covariance);
     information = 0.5 * (information + information.transpose()).eval();
-    return {from, to, step, information, scale};
+    return {from, to, step, information, scale, scale_information};
   }
 };
 
@@ -92,8 +98,8 @@ void require_complete_odometry(const GraphParts& parts,
                       0,
                       fmt::format("found no edge between {} and {}, expected odometry between "
                                   "consecutive poses {}",
-                                  graph.ids[i],
-                                  graph.ids[i + 1],
+                                  id_text(graph.ids[i]),
+                                  id_text(graph.ids[i + 1]),
                                   why));
   }
 }
@@ -113,6 +119,16 @@ void drop_placeholders(std::vector<Edge>& closures) {
   });
 }
 
+namespace {
+
+std::int64_t listed_id(const TextFile& file, const Line& line, Columns& columns) {
+  const std::string_view word = columns.word();
+  if (const auto id = id_of(word)) return *id;
+  throw file.error(line.number, fmt::format("'{}' is no id of a vertex", word));
+}
+
+}  // namespace
+
 void keep_listed(std::vector<Edge>& closures,
                  const std::vector<std::int64_t>& ids,
                  const std::filesystem::path& list) {
@@ -128,8 +144,8 @@ void keep_listed(std::vector<Edge>& closures,
       throw file.error(line.number, fmt::format("has {} columns, expected 2: id id", count));
     }
     Columns columns(file, line);
-    const std::int64_t a = columns.integer("id");
-    const std::int64_t b = columns.integer("id");
+    const std::int64_t a = listed_id(file, line, columns);
+    const std::int64_t b = listed_id(file, line, columns);
     listed[std::minmax(a, b)] = {line.number, false};
   }
   std::erase_if(closures, [&](const Edge& edge) {
@@ -140,10 +156,10 @@ void keep_listed(std::vector<Edge>& closures,
   });
   for (const auto& [pair, entry] : listed) {
     if (entry.found) continue;
-    throw file.error(
-        entry.line,
-        fmt::format(
-            "the graph has no closure {} {}, expected ids of a closure", pair.first, pair.second));
+    throw file.error(entry.line,
+                     fmt::format("the graph has no closure {} {}, expected ids of a closure",
+                                 id_text(pair.first),
+                                 id_text(pair.second)));
   }
 }
 

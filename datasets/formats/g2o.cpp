@@ -25,7 +25,7 @@ void sort_vertices(const TextFile& file, std::vector<VertexRecord> vertices, Pos
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (i > 0 && vertices[i].id == vertices[i - 1].id) {
       throw file.error(vertices[i].line,
-                       "vertex " + std::to_string(vertices[i].id) + " is already defined on line " +
+                       "vertex " + id_text(vertices[i].id) + " is already defined on line " +
                            std::to_string(vertices[i - 1].line));
     }
     out.ids.push_back(vertices[i].id);
@@ -52,7 +52,7 @@ std::size_t index_of(const TextFile& file,
   if (found == graph.ids.end() || *found != id) {
     throw file.error(
         line,
-        what + " refers to vertex " + std::to_string(id) +
+        what + " refers to vertex " + id_text(id) +
             ", which has no VERTEX line: expected vertices of this file, not of another robot");
   }
   return static_cast<std::size_t>(found - graph.ids.begin());
@@ -81,7 +81,7 @@ PoseGraph read_g2o(TextFile& file, const InformationRules& rules) {
   Records records = read_records(file, rules);
   PoseGraph out;
   out.altered = records.altered;
-  out.scale_information = records.scale_information;
+  out.scale_correlations = records.scale_correlations;
   out.planar = records.kind == GraphKind::planar;
   out.similarity = records.kind == GraphKind::similarity;
   if (records.vertices.empty()) {
@@ -117,11 +117,11 @@ PoseGraph read_g2o(TextFile& file, const InformationRules& rules) {
 }
 
 std::vector<double> vertex_stamps(const PoseGraph& graph, double period) {
-  constexpr int kSymbolBits = 56, kDoubleBits = 53;
+  constexpr int kDoubleBits = 53;
   const std::vector<std::int64_t>& ids = graph.ids;
-  const std::int64_t first = ids.empty() ? 0 : ids.front();
-  const int bits = first >> kSymbolBits > 0 ? kSymbolBits : kDoubleBits;
-  const bool is_large = first >> bits > 0;
+  const bool are_symbols = !ids.empty() && ids.front() >> kSymbolBits > 0;
+  const int bits = are_symbols ? kSymbolBits : kDoubleBits;
+  const bool is_large = !ids.empty() && ids.back() >> kDoubleBits > 0;
   const auto index_of = [&](std::int64_t id) {
     return is_large ? id & ((std::int64_t{1} << bits) - 1) : id;
   };
@@ -164,8 +164,8 @@ std::vector<Pose> spanning_tree(const PoseGraph& graph, const std::string& name)
   }
   if (queue.size() == count) return out;
   const auto lost = std::ranges::find(scale, 0.0) - scale.begin();
-  throw InputError(name + ": no edges connect vertices " + std::to_string(graph.ids[0]) + " and " +
-                   std::to_string(graph.ids[static_cast<std::size_t>(lost)]) +
+  throw InputError(name + ": no edges connect vertices " + id_text(graph.ids[0]) + " and " +
+                   id_text(graph.ids[static_cast<std::size_t>(lost)]) +
                    ", expected a connected graph in a file without VERTEX lines");
 }
 
@@ -202,11 +202,14 @@ void write_pose(TextWriter& out, const PoseGraph& graph, const Pose& pose) {
   out.number(t.z()).number(q.x()).number(q.y()).number(q.z()).number(q.w());
 }
 
+/// With the information of the scale as a further row and column, if there is any.
 template <class Matrix>
-void write_upper(TextWriter& out, const Matrix& information) {
+void write_upper(TextWriter& out, const Matrix& information, double of_scale = 0.0) {
   for (int i = 0; i < information.rows(); ++i) {
     for (int j = i; j < information.cols(); ++j) out.number(information(i, j));
+    if (of_scale > 0.0) out.number(0.0);
   }
+  if (of_scale > 0.0) out.number(of_scale);
 }
 
 const char* suffix(const PoseGraph& graph) {
@@ -234,7 +237,7 @@ TextWriter g2o_text(const PoseGraph& graph) {
     if (graph.planar) {
       write_upper(out, planar_block(e.information));
     } else {
-      write_upper(out, to_half_angles(e.information));
+      write_upper(out, to_half_angles(e.information), graph.similarity ? e.scale_information : 0.0);
     }
     out.end_line();
   }

@@ -18,14 +18,15 @@ class TextWriter;
 /// Edges refer to vertices by their index in `ids`, not by id. from < to always: other edges are
 /// inverted on reading, and their information is transformed by the adjoint.
 struct PoseGraph {
-  std::vector<std::int64_t> ids;        ///< ascending
-  std::vector<Pose> vertices;           ///< one per id; empty if the file has no VERTEX lines
-  std::vector<Edge> edges;              ///< in file order; information in twist order [rho; phi]
-  std::vector<std::size_t> lines;       ///< line number of each edge, for error messages
-  bool planar = false;                  ///< SE2 lines, lifted to z = roll = pitch = 0
-  bool similarity = false;              ///< RST3 lines, with edge.scale
-  std::size_t altered = 0;              ///< edges whose information was not positive definite
-  std::size_t scale_information = 0;    ///< edges with information of the scale, which is not used
+  std::vector<std::int64_t> ids;   ///< ascending
+  std::vector<Pose> vertices;      ///< one per id; empty if the file has no VERTEX lines
+  std::vector<Edge> edges;         ///< in file order; information in twist order [rho; phi]
+  std::vector<std::size_t> lines;  ///< line number of each edge, for error messages
+  bool planar = false;             ///< SE2 lines, lifted to z = roll = pitch = 0
+  bool similarity = false;         ///< RST3 lines, with edge.scale
+  std::size_t altered = 0;         ///< edges whose information was not positive definite
+  /// Edges whose information correlates the scale with the pose; these terms are not used.
+  std::size_t scale_correlations = 0;
   std::vector<std::size_t> fixed = {};  ///< vertices of FIX lines, ascending
   std::vector<Anchor> priors = {};      ///< positions of PRIOR lines; Anchor::keyframe is a vertex
   std::map<std::string, std::size_t> skipped = {};  ///< number of lines that are not used, by tag
@@ -60,7 +61,9 @@ struct InformationRules {
 ///   in that order, used as information of the twist. sphere2500.g2o agrees with its EDGE3
 ///   original. iSAM writes square roots of information in the same format, which cannot be
 ///   detected.
-/// - The scale column of RST3 edges is the inverse of edge.scale. Scales of vertices are checked
+/// - The scale column of RST3 edges is the inverse of edge.scale. With 28 numbers of information,
+/// the
+///   last one is edge.scale_information. Scales of vertices are checked
 /// and
 ///   discarded.
 /// - EDGE_SE3_PRIOR, EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, EDGE_SE2_XYPRIOR and EDGE_POINTXYZ measure
@@ -85,7 +88,7 @@ TextWriter g2o_text(const PoseGraph& graph);
 /// Stamps of all vertices: id * period [s]. Of ids that are symbols of GTSAM (a letter in the
 /// highest byte, an index below) it is the index, or the position in the graph if several letters
 /// share indices. Of ids from 2^53 on, which a double does not resolve, it is the number in the
-/// lowest 53 bits.
+/// lowest 53 bits, or the position if these do not increase.
 std::vector<double> vertex_stamps(const PoseGraph& graph, double period);
 
 /// Returns one pose per id, composed from the edges between consecutive ids, or along the fewest

@@ -112,9 +112,16 @@ class Record {
       case PoseLayout::quaternion_and_scale:
         break;
     }
-    const bool has_scale = count_columns(file_, line_) > 32;
-    return of_quaternion(has_scale ? Matrix6(upper<7>().topLeftCorner<6, 6>()) : upper<6>());
+    if (count_columns(file_, line_) <= 32) return of_quaternion(upper<6>());
+    const auto all = upper<7>();
+    scale_information_ = all(6, 6);
+    is_scale_correlated_ = !all.topRightCorner<6, 1>().isZero(0.0);
+    return of_quaternion(all.topLeftCorner<6, 6>());
   }
+
+  /// Of the logarithm of the scale, after information(); 0: the line has none.
+  double scale_information() const { return scale_information_; }
+  bool is_scale_correlated() const { return is_scale_correlated_; }
 
   /// Whether the parsed information was not positive definite.
   bool is_altered() const { return is_altered_; }
@@ -155,6 +162,8 @@ class Record {
   const PoseTag& tag_;
   InformationRules rules_;
   bool is_altered_ = false;
+  double scale_information_ = 0.0;
+  bool is_scale_correlated_ = false;
   Columns columns_;
 };
 
@@ -200,10 +209,10 @@ void read_edge(const TextFile& file,
   edge.scale = 1.0 / inverse_scale;
   edge.information = record.information();
   out.altered += record.is_altered() ? 1 : 0;
-  out.scale_information += count_columns(file, line) > 32 ? 1 : 0;  // 39
+  edge.scale_information = record.scale_information();
+  out.scale_correlations += record.is_scale_correlated() ? 1 : 0;
   if (ends.from == ends.to) {
-    throw file.error(line.number,
-                     "edge connects vertex " + std::to_string(ends.from) + " to itself");
+    throw file.error(line.number, "edge connects vertex " + id_text(ends.from) + " to itself");
   }
   out.ends.push_back(ends);
 }

@@ -88,7 +88,7 @@ Records read_records(TextFile& file, const InformationRules& rules) {
     for (const auto& [tag, count] : more.skipped) out.skipped[tag] += count;
     out.lines += more.lines;
     out.altered += more.altered;
-    out.scale_information += more.scale_information;
+    out.scale_correlations += more.scale_correlations;
   }
   return out;
 }

@@ -42,10 +42,10 @@ struct Records {
   std::vector<Edge> edges;  ///< one per `ends`; indices not set, information of a twist
   std::vector<PriorRecord> priors;
   std::vector<OffsetRecord> offsets;
-  std::vector<EdgeEnds> fixed;        ///< `from` of each
-  std::size_t lines = 0;              ///< of the part of the file
-  std::size_t altered = 0;            ///< edges whose information was not positive definite
-  std::size_t scale_information = 0;  ///< edges with information of the scale, which is not used
+  std::vector<EdgeEnds> fixed;         ///< `from` of each
+  std::size_t lines = 0;               ///< of the part of the file
+  std::size_t altered = 0;             ///< edges whose information was not positive definite
+  std::size_t scale_correlations = 0;  ///< edges whose scale and pose are correlated
   std::map<std::string, std::size_t> skipped = {};  ///< number of lines by tag, see is_unused_tag()
   std::vector<std::int64_t> planes = {};            ///< ids of VERTEX_PLANE lines
 };

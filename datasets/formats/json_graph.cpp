@@ -36,10 +36,21 @@ double json_number(const JsonPlace& at, const GraphJson& object, const char* key
   return value.get<double>();
 }
 
+/// Keys are identified as the numbers that GTSAM writes.
+std::int64_t key_of(const JsonPlace& at, const std::string& text) {
+  std::int64_t out = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, out);
+  if (error == std::errc{} && rest == end && out >= 0) return out;
+  throw at.error("key " + text.substr(0, 40) +
+                 ": keys are numbers of GTSAM, from 0 to 2^63 - 1: letter * 2^56 + index, or an "
+                 "index");
+}
+
 std::int64_t json_id(const JsonPlace& at, const GraphJson& object, const char* key) {
   const GraphJson& value = member(at, object, key);
   if (!value.is_number_integer()) throw at.error(std::string("\"") + key + "\" is no integer");
-  return value.get<std::int64_t>();
+  return key_of(at, value.dump());
 }
 
 /// A list of N numbers.
@@ -159,13 +170,10 @@ PoseGraph read_jrl(const std::string& name, const GraphJson& json, const Informa
   if (const auto initial = json.find("initialization"); initial != json.end()) {
     for (const auto& [robot, values] : initial->items()) {
       for (const auto& [key, value] : values.items()) {
-        const JsonPlace at = out.place("initialization of " + robot + ", key " + key);
+        const JsonPlace at = out.place("initialization of " + robot + ", key " + key.substr(0, 40));
         const GraphJson& type = member(at, value, "type");
         if (type != "Pose2" && type != "Pose3") continue;
-        std::int64_t id = 0;
-        const char* const end = key.data() + key.size();
-        if (std::from_chars(key.data(), end, id).ptr != end) throw at.error("is no key of GTSAM");
-        out.add_vertex(id, jrl_pose(at, value));
+        out.add_vertex(key_of(at, key), jrl_pose(at, value));
       }
     }
   }

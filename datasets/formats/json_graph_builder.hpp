@@ -41,7 +41,7 @@ class GraphBuilder {
                 std::int64_t to,
                 const Pose& from_from_to,
                 const Matrix6& information) {
-    if (from == to) throw at.error("connects vertex " + std::to_string(from) + " to itself");
+    if (from == to) throw at.error("connects vertex " + id_text(from) + " to itself");
     Edge edge;
     edge.from_from_to = from_from_to;
     edge.information = definite(at, information);

@@ -107,7 +107,7 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
   visit("gnc", o.gnc, "graduated non-convexity: off, tls (truncated least squares)");
   visit("scale_sigma",
         o.scale_sigma,
-        "standard deviation of an edge's log scale in sim3 [-]",
+        "standard deviation in sim3 of the log scale of edges whose graph states none [-]",
         GreaterThan{0.0});
   visit("max_iterations",
         o.max_iterations,

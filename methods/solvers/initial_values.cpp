@@ -244,7 +244,7 @@ std::vector<ScaledPose> chordal_values(const Problem& problem,
   if (has_scale) {
     System<1> scales(structure, 3);
     edges.for_each([&](const Edge& edge, const Weights&) {
-      const double weight = 1.0 / (scale_sigma * scale_sigma);
+      const double weight = scale_information(edge, scale_sigma);
       scales.add<Row>(edge, weight, one, Row(std::log(edge.scale), 0.0, 0.0), Row::Zero());
     });
     const Eigen::MatrixXd& logs = scales.solve("scales");

@@ -156,6 +156,21 @@ TEST(G2o, SimilarityInformationMayHoldTheScaleToo) {
   expected.topLeftCorner<3, 3>() *= 4.0;
   EXPECT_EQ(edge.information, expected);
   EXPECT_EQ(edge.scale, 0.5);
+  EXPECT_EQ(edge.scale_information, 4.0);
+}
+
+TEST(G2o, WritesTheInformationOfTheScale) {
+  const TemporaryFolder scratch;
+  PoseGraph graph = random_graph(false, false);
+  graph.similarity = true;
+  graph.edges[0].scale_information = 7.0;
+  graph.edges[1].scale = 2.0;
+  write_g2o(scratch.path() / "a.g2o", graph);
+  const PoseGraph back = read_g2o(scratch.path() / "a.g2o");
+  ASSERT_EQ(back.edges.size(), graph.edges.size());
+  EXPECT_EQ(back.edges[0].scale_information, 7.0);
+  EXPECT_EQ(back.edges[1].scale_information, 0.0);
+  EXPECT_TRUE(back.edges[0].information.isApprox(graph.edges[0].information, 1e-15));
 }
 
 TEST(G2o, ToroAnglesAreRollPitchYawAboutFixedAxes) {
@@ -251,6 +266,10 @@ TEST(G2o, StampsOfSymbolsAreTheirIndices) {
   EXPECT_EQ(vertex_stamps(graph, 0.5), (std::vector<double>{0.0, 0.5, 2.0}));
   graph.ids.push_back(symbol('b', 0));  // a second robot: the order of the file
   EXPECT_EQ(vertex_stamps(graph, 0.5), (std::vector<double>{0.0, 0.5, 1.0, 1.5}));
+  graph.ids = {3, 4, symbol('a', 5)};  // numbers and symbols
+  EXPECT_EQ(vertex_stamps(graph, 0.5), (std::vector<double>{1.5, 2.0, 2.5}));
+  graph.ids = {-3, 4, symbol('a', 4)};
+  EXPECT_EQ(vertex_stamps(graph, 0.5), (std::vector<double>{0.0, 0.5, 1.0}));
   graph.ids = {2, 7};
   EXPECT_EQ(vertex_stamps(graph, 0.5), (std::vector<double>{1.0, 3.5}));
 }

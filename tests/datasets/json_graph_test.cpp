@@ -111,6 +111,22 @@ TEST(JsonGraph, ErrorsNameTheEntry) {
   text = open3d();
   text.replace(text.find("4.0"), 3, "-4.");
   EXPECT_NE(why(text), "");
+  const std::string factor =
+      R"({"measurements": {"a": [{"measurements": [{"type": "BetweenFactorPose2", "key1": KEY, "key2": 1,
+"measurement": {"type": "Pose2", "x": 1, "y": 0, "theta": 0}, "covariance": [1, 0, 0, 0, 1, 0, 0, 0, 1]}]}]}})";
+  for (const char* const key : {"-3", "9223372036854775808"}) {
+    text = factor;
+    EXPECT_THAT(why(text.replace(text.find("KEY"), 3, key)),
+                HasSubstr("graph.json: robot a, entry 0: key " + std::string(key) +
+                          ": keys are numbers of GTSAM, from 0"));
+  }
+  EXPECT_THAT(
+      why(R"({"initialization": {"a": {"-3": {"type": "Pose2", "x": 0, "y": 0, "theta": 0}}},
+"measurements": {}})"),
+      HasSubstr("key -3: keys are numbers of GTSAM"));
+  text = factor;
+  EXPECT_THAT(why(text.replace(text.find("KEY"), 3, "1")),
+              HasSubstr("connects vertex 1 to itself"));
   EXPECT_THAT(why(open3d().substr(0, 200)), HasSubstr("is not valid JSON"));
 }
 

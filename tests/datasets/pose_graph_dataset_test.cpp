@@ -57,19 +57,20 @@ TEST(PoseGraphDataset, OdometryIsTheChainAndTheRestCloses) {
   EXPECT_DOUBLE_EQ(problem.keyframes[3].stamp, 10.3);
 }
 
-TEST(PoseGraphDataset, NotesInformationOfScalesThatIsNotUsed) {
+TEST(PoseGraphDataset, CountsCorrelationsWithTheScaleThatAreNotUsed) {
   const TemporaryFolder scratch;
-  const auto notes_of = [&](const std::string& information) {
+  const auto count_of = [&](const std::string& information) {
     const std::string pose = " 1 0 0 0 0 0 1 1 ", end = information + "\n";
     const auto file =
         scratch.file("a.g2o",
                      "VERTEX_RST3:QUAT 0 0 0 0 0 0 0 1 1\nVERTEX_RST3:QUAT 1 1 0 0 0 0 0 1 1\n"
                      "EDGE_RST3:QUAT 0 1" +
                          pose + end);
-    return read_g2o(file).scale_information;
+    return read_g2o(file).scale_correlations;
   };
-  EXPECT_EQ(notes_of("1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1"), 0u);
-  EXPECT_EQ(notes_of("1 0 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1"), 1u);
+  EXPECT_EQ(count_of("1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1"), 0u);
+  EXPECT_EQ(count_of("1 0 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1"), 0u);
+  EXPECT_EQ(count_of("1 0 0 0 0 0 0.5 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1"), 1u);
 }
 
 TEST(PoseGraphDataset, LoopEndsStayKeyframes) {

@@ -133,6 +133,25 @@ class Breaks(WithProgram):
         text = self.call("loops", "graph.g2o", "--break", "30")
         self.assertRegex(text, "agree")
 
+    def test_symbols_of_gtsam_are_letter_and_index(self):
+        key = lambda k: str((ord("a" if k < 60 else "b") << 56) + (k if k < 60 else k - 60))
+        lines = [line.split() for line in (self.folder / "graph.g2o").read_text().splitlines()]
+        for words in lines:
+            for i in ((1,) if words[0].startswith("VERTEX") else (1, 2)):
+                words[i] = key(int(words[i]))
+        (self.folder / "symbols.g2o").write_text("\n".join(map(" ".join, lines)) + "\n")
+        plain = self.call("loops", "graph.g2o", "--csv", "-", code=1).splitlines()
+        named = self.call("loops", "symbols.g2o", "--csv", "-", code=1).splitlines()
+        shown = lambda k: f"a{k}" if int(k) < 60 else f"b{int(k) - 60}"
+        self.assertEqual([",".join(map(shown, row.split(",")[:2])) for row in plain[1:]],
+                         [",".join(row.split(",")[:2]) for row in named[1:]])
+        notes = json.loads(self.call("correct", "symbols.g2o", "--break", "a30", "--break", "b5", "--json"))["notes"]
+        self.assertIn("breaks: unknown motion from a29 to a30, from b4 to b5", notes)
+        self.assertIn("no vertex has id c3, expected one from a0 to b39",
+                      self.call("correct", "symbols.g2o", "--break", "c3", code=2))
+        first = json.loads(self.call("loops", "symbols.g2o", "--json", code=1))["closures"][0]
+        self.assertRegex(first["from"] + first["to"], r"^[ab]\d+[ab]\d+$")
+
     def test_unknown_stamps_and_ids_are_errors(self):
         run = ("correct", "run.txt", "--loops", "loops.txt", "--break")
         for given, words in (

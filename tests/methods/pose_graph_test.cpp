@@ -94,6 +94,28 @@ TEST(PoseGraph, DistributesAScaleChangeEvenly) {
   EXPECT_NEAR(count(report, "chi2"), 5.0 * share * share, 2e-6);
 }
 
+TEST(PoseGraph, ScalesHaveTheirStatedInformation) {
+  // Four edges whose log scale has variance 1 and a closure of variance 4 share log(16): an eighth
+  // for each edge, four eighths for the closure. Its length matches such a path.
+  const double q = std::pow(16.0, 0.125);
+  Problem problem = along_x({0, 1, 2, 3, 4});
+  for (Edge& edge : problem.odometry) edge.scale_information = 1.0;
+  problem.closures.push_back({0, 4, at_x(1.0 + q + q * q + q * q * q)});
+  problem.closures[0].scale = 16.0;
+  problem.closures[0].scale_information = 0.25;
+  for (const auto start :
+       {PoseGraphOptimizer::Start::odometry, PoseGraphOptimizer::Start::chordal}) {
+    Report report;
+    const Trajectory out = PoseGraphOptimizer({.start = start}).correct(problem, report);
+    double x = 0.0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      EXPECT_NEAR(out[i].world_from_body.translation.x(), x, 1e-6) << i;
+      x += std::pow(q, static_cast<double>(i));
+    }
+    EXPECT_NEAR(count(report, "chi2"), 8.0 * std::log(q) * std::log(q), 1e-8);
+  }
+}
+
 TEST(PoseGraph, AcceptsConnectedGraphsOnly) {
   Problem problem = walk(6, 30, 0.0);
   problem.odometry.erase(problem.odometry.begin() + 20);

@@ -10,9 +10,13 @@
 
 namespace loopbench::harness {
 
-/// The id of a keyframe, or its stamp.
+/// The id of a keyframe (text of a symbol: "a12"), or its stamp.
 inline nlohmann::ordered_json keyframe_json(const Problem& problem, std::size_t keyframe) {
-  if (!problem.ids.empty()) return problem.ids[keyframe];
+  if (!problem.ids.empty()) {
+    const std::int64_t id = problem.ids[keyframe];
+    if (is_symbol(id)) return id_text(id);
+    return id;
+  }
   return shown_stamp(problem.keyframes[keyframe].stamp);
 }
 

@@ -107,7 +107,8 @@ void settle_costs(methods::Report& report) {
 
 void write_problem(const std::filesystem::path& folder, const Problem& problem) {
   const WithoutSync of_exchange;
-  const PoseGraph graph = problem_graph(problem, problem.keyframes);
+  PoseGraph graph = problem_graph(problem, problem.keyframes);
+  for (Edge& edge : graph.edges) edge.scale_information = 0.0;  // version 1 has 21 numbers
   write_g2o(folder / "graph.g2o", graph);
   write_tum(folder / "keyframes.txt", problem.keyframes);
   write_tum(folder / "frames.txt", problem.frames);

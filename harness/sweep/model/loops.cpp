@@ -22,7 +22,7 @@ std::string decimal(double value, int digits = 0) {
 
 /// Vertex id of a graph, or stamp.
 std::string keyframe_name(const Problem& problem, std::size_t keyframe) {
-  if (!problem.ids.empty()) return std::to_string(problem.ids[keyframe]);
+  if (!problem.ids.empty()) return id_text(problem.ids[keyframe]);
   return decimal(shown_stamp(problem.keyframes[keyframe].stamp));
 }
 

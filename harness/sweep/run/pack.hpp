@@ -98,6 +98,7 @@ inline constexpr bool kIsPlain<Anchor> = true;
 template <class Archive, Either<Edge> T>
 void walk(Archive& a, T& edge) {
   a(edge.from)(edge.to)(edge.from_from_to)(edge.information)(edge.scale);
+  a(edge.scale_information);
 }
 
 template <class Archive, Either<Problem> T>

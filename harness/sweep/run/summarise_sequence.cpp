@@ -42,6 +42,7 @@ class ContentHash {
       add(edge.from_from_to);
       for (const double x : edge.information.reshaped()) add(x);
       add(edge.scale);
+      if (edge.scale_information > 0.0) add(edge.scale_information);
     }
   }
 

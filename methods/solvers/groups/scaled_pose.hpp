@@ -29,6 +29,12 @@ inline ScaledPose normalized(ScaledPose x) {
 }
 
 /// Measured similarity transform of an edge.
+/// Inverse variance of the logarithm of an edge's scale: as stated, otherwise that of
+/// `scale_sigma`.
+inline double scale_information(const Edge& edge, double scale_sigma) {
+  return edge.scale_information > 0.0 ? edge.scale_information : 1.0 / (scale_sigma * scale_sigma);
+}
+
 inline ScaledPose measured(const Edge& edge) { return {edge.from_from_to, edge.scale}; }
 
 }  // namespace loopbench::methods

@@ -39,15 +39,15 @@ struct Sim3 {
 
   static ScaledPose from(const ScaledPose& a) { return a; }
   static ScaledPose to_scaled_pose(const ScaledPose& a) { return a; }
-  /// Edges state no uncertainty of their scale; `scale_sigma` [-] is the deviation of its
-  /// logarithm. An edge's translation and its deviations are in the scale of its first keyframe,
+  /// `scale_sigma` [-] is the deviation of the logarithm of the scale of edges that state none. An
+  /// edge's translation and its deviations are in the scale of its first keyframe,
   /// but the error here follows the measured similarity and is in the scale of the second keyframe.
   static Square information(const Edge& edge, double scale_sigma) {
     Twist scale = Twist::Ones();
     scale.head<3>().setConstant(edge.scale);
     Square out = Square::Zero();
     out.topLeftCorner<6, 6>() = scale.asDiagonal() * edge.information * scale.asDiagonal();
-    out(6, 6) = 1.0 / (scale_sigma * scale_sigma);
+    out(6, 6) = scale_information(edge, scale_sigma);
     return out;
   }
 };
