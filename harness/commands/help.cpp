@@ -60,7 +60,8 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench correct run.txt --loops loops.txt --break 131.5 -o corrected.txt\n"},
     {"loops",
      "  loopbench loops graph.g2o\n"
-     "  loopbench loops run.txt --loops loops.txt --csv ledger.csv --plot loops.svg\n"},
+     "  loopbench loops run.txt --loops loops.txt --csv ledger.csv --plot loops.svg\n"
+     "  loopbench loops graph.g2o -o repaired.g2o --report loops.html\n"},
     {"export",
      "  loopbench run configs/quickstart.yaml --save-trajectories\n"
      "  loopbench export results/quickstart --what trajectories -o estimates\n"

@@ -117,11 +117,12 @@ inline Misfit misfit(const std::vector<Edge>& odometry,
                      const std::vector<Vector3>& points,
                      const std::vector<Rotation>& rotations) {
   Misfit out;
-  for (const auto& [from, to, measured, information, scale] : odometry) {
-    const Rotation body_from_world = rotations[from].conjugate();
-    const Vector3 step = body_from_world * (points[to] - points[from]);
-    const double angle = angle_between(measured.rotation, body_from_world * rotations[to]);
-    const Twist variances = inverse_of(information).diagonal();
+  for (const Edge& edge : odometry) {
+    const Pose& measured = edge.from_from_to;
+    const Rotation body_from_world = rotations[edge.from].conjugate();
+    const Vector3 step = body_from_world * (points[edge.to] - points[edge.from]);
+    const double angle = angle_between(measured.rotation, body_from_world * rotations[edge.to]);
+    const Twist variances = inverse_of(edge.information).diagonal();
     out.translation += (measured.translation - step).squaredNorm() / variances.head<3>().sum();
     out.rotation += angle * angle / variances.tail<3>().sum();
   }

@@ -307,6 +307,15 @@ class Fixes(WithProgram):
                          [line for i, line in enumerate(priors) if i not in wrong])
         self.assertEqual([line for line in written if line.startswith("#")],
                          ["# dropped anchor: 30", "# dropped anchor: 60"])
+        self.call("loops", "graph.g2o", "--report", "page.html", code=1)
+        page = (self.folder / "page.html").read_text()
+        before, after = re.findall(r"<figcaption>(?s:.*?)</figure>", page)[:2]
+        self.assertRegex(before, r"^<figcaption>Before correction(?s:.*)>closures that agree<")
+        self.assertNotIn("anchors", before)  # they can be in another frame than the keyframes
+        self.assertRegex(after, r"^<figcaption>After correction(?s:.*)>anchors that agree<(?s:.*)>anchors that disagree<")
+        self.assertEqual(len(re.findall(r">anchors that disagree</title>", after)), 1)
+        self.assertRegex(page, r'<th scope="row">60</th><td>(19|20)\.\d</td>')
+        self.assertNotRegex(page, r"<script|style=|https?://(?!www.w3.org)")
         found = json.loads(self.call("loops", "graph.g2o", "--json", code=1))["anchors"]
         self.assertEqual((found["used"], sorted(each["at"] for each in found["dropped"])), (33, [30, 60]))
         self.assertIn("All 33 anchors agree.", self.call("loops", "repaired.g2o"))

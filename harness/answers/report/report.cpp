@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "datasets/core/error.hpp"
-#include "harness/answers/report/assets.hpp"
 #include "harness/answers/report/data.hpp"
+#include "harness/answers/report/page_template.hpp"
 #include "harness/answers/report/sections.hpp"
 #include "harness/answers/tables/comparison.hpp"
 #include "harness/sweep/model/evaluated_run.hpp"
@@ -18,30 +18,6 @@
 
 namespace loopbench::harness {
 namespace {
-
-using Placeholders = std::map<std::string, std::string, std::less<>>;
-
-/// Replaces every {{name}} in the template in one pass; inserted text is not searched again.
-std::string filled(std::string_view page, const Placeholders& values) {
-  std::string out;
-  while (true) {
-    const std::size_t open = page.find("{{");
-    out += page.substr(0, open);
-    if (open == std::string_view::npos) return out;
-    const std::size_t close = page.find("}}", open);
-    const auto found = values.find(page.substr(open + 2, close - open - 2));
-    if (found == values.end()) throw std::logic_error("report: a placeholder has no value");
-    out += found->second;
-    page.remove_prefix(close + 2);
-  }
-}
-
-std::string asset_text(std::string_view name) {
-  for (const Asset& asset : assets()) {
-    if (asset.name == name) return std::string(asset.text);
-  }
-  throw std::logic_error("report: no such asset");
-}
 
 /// The library, then the page's own scripts in order of their dependencies, in elements with the
 /// nonce of the policy.

@@ -20,6 +20,7 @@ struct LoopsCommand {
   CorrectArguments input;
   std::string csv;
   std::filesystem::path plot;
+  std::string report;
   FigureOptions figure;
   std::string repaired;
   bool next = false;
@@ -35,6 +36,7 @@ void show_progress(const std::string& work) {
 
 int run_loops(const LoopsCommand& a) {
   constexpr std::size_t kMostRows = 20;  // of a table that fits a screen
+  reject_standard_output("--report", a.report);
   Provenance provenance;
   Problem problem = load_problem(a.input, catalogue({}), &provenance);
   const LoopsResult result = loops(std::move(problem), a.input.estimate, show_progress);
@@ -49,7 +51,9 @@ int run_loops(const LoopsCommand& a) {
              "{}",
              a.json ? json(result, next) : fitted_lines(printable(text(result, kMostRows, next))));
   if (!a.csv.empty()) write_file(a.csv, csv(result));
-  if (!a.plot.empty()) draw_map(loops_figure(result), a.plot, a.figure);
+  if (!a.plot.empty())
+    draw_map(loops_figure(result, result.problem.keyframes, false), a.plot, a.figure);
+  if (!a.report.empty()) write_file(a.report, loops_page(result));
   if (!a.repaired.empty()) write_repaired(result, provenance, a.repaired);
   return is_contradicted(result) ? kExitNotShown : kExitOk;
 }
@@ -90,6 +94,14 @@ void add_loops(CLI::App& app, int& exit_code) {
           "Map of the keyframes with the closures: .pdf, .svg, .png or .pgf (default: FILE.pdf)"),
       FileKind::figure);
   declare_figures(*command, a->figure, "--plot");
+  writes(
+      *command,
+      add(*command,
+          "--report FILE",
+          a->report,
+          "HTML page with the verdict, maps of the closures before and after the correction, and "
+          "tables"),
+      FileKind::page);
   remove_option(*command, "--labels");  // colours have a fixed meaning
   command->add_flag("--json", a->json, "Print JSON instead of text");
   command->callback([a, &exit_code] { exit_code = run_loops(*a); });

@@ -1,9 +1,7 @@
 #include "harness/commands/loops/loops.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -97,31 +95,6 @@ void write_repaired(const LoopsResult& result,
     out.comment("freed: " + step_name(result.problem, step.from));
   }
   out.save(file);
-}
-
-FigureData loops_figure(const LoopsResult& result) {
-  const std::string title = std::filesystem::path(result.estimate).filename().string();
-  FigureData out{title, "", {{.name = "keyframes"}}, {}, {}};
-  add_poses(out.curves[0], result.problem.keyframes, 0.0);
-  std::map<std::string, DrawnCurve> kinds{
-      // drawn in this order
-      {"agrees", {.name = "closures that agree", .style = 2, .dash = 1, .is_thin = true}},
-      {"unchecked",
-       {.name = "closures that cannot be checked", .style = 4, .dash = 1, .is_thin = true}},
-      {"disagrees", {.name = "closures that disagree", .style = 3, .dash = 1, .is_thin = true}},
-  };
-  for (std::size_t rank = 0; rank < result.ledger.suspects.size(); ++rank) {
-    DrawnCurve& curve = kinds.at(judgement(result, rank));
-    const Edge& edge = result.problem.closures[result.ledger.suspects[rank]];
-    for (const std::size_t end : {edge.from, edge.to}) {
-      add_position(curve, result.problem.keyframes[end].world_from_body.translation);
-    }
-    add_position(curve, Vector3::Constant(NAN));  // a gap between two closures
-  }
-  for (auto& [kind, curve] : kinds) {
-    if (!curve.columns.empty()) out.curves.push_back(std::move(curve));
-  }
-  return out;
 }
 
 }  // namespace loopbench::harness

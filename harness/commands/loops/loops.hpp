@@ -44,7 +44,13 @@ void write_repaired(const LoopsResult& result,
                     const Provenance& provenance,
                     const std::filesystem::path& file);
 
-/// Map of the keyframes with the closures coloured by what the others state about them.
-FigureData loops_figure(const LoopsResult& result);
+/// Map of `poses` of the keyframes with the closures coloured by what the others state about them,
+/// the steps of the odometry that are wrong, and lines from the poses to the anchors.
+FigureData loops_figure(const LoopsResult& result, const Trajectory& poses, bool with_anchors);
+
+/// A page in one file: the verdict, maps of the keyframes as they are given and as `correct` moves
+/// them, and tables of closures (the most suspicious first, at most 500), steps and dropped
+/// anchors.
+std::string loops_page(const LoopsResult& result);
 
 }  // namespace loopbench::harness
