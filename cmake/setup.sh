@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2034  # the lists are used by the scripts that source this
 # Sourced by run.sh and test.sh: install_missing PACKAGE... installs missing packages and prints their names.
-# Needs Debian 12 (or a derivative with the same package names).
+# For Debian 12 and 13 and Ubuntu 24.04: these packages have the same names in all of them.
 
 packages=(
   clang cmake ninja-build
@@ -19,7 +19,9 @@ sanitizer_packages=(libclang-rt-dev llvm)  # llvm: names of functions in reports
 lint_packages=(clang-format clang-tidy shellcheck)
 slurm_packages=(slurm-wlm munge)  # a real cluster for tests/slurm
 colcon_packages=(colcon)
-package_packages=(g++ dpkg-dev file help2man lintian debootstrap)
+package_packages=(g++ dpkg-dev file help2man)
+wheel_packages=(python3-pip patchelf)
+root_packages=(debootstrap debian-archive-keyring)  # bare roots of Debian
 # The compiled module of the Python package is optional: without these it is not built.
 python_packages=(python3-dev python3-numpy pybind11-dev)
 benchmark_packages=(libbenchmark-dev)
@@ -46,7 +48,7 @@ install_missing() {
   done
   ((${#missing[@]})) || return 0
   if ! command -v apt-get >/dev/null; then
-    echo "loopbench: please install these packages (names of Debian 12): ${missing[*]}" >&2
+    echo "loopbench: please install these packages (names of Debian and Ubuntu): ${missing[*]}" >&2
     exit 2
   fi
   local as_root=()
