@@ -13,7 +13,7 @@ verdict=$(grep -m 1 '^### ate, dense: ' README.md)
 
 # passed WHAT COMMAND: COMMAND, which runs the default comparison, prints the verdict.
 passed() {
-  inside "$2 >output"
+  inside "{ $2; } >output"
   grep -qFx "$verdict" "$root/root/output" ||
     { echo "package: $1: expected '$verdict', found:" && head -20 "$root/root/output"; exit 1; } >&2
   echo "package: $1: runs, with the verdict of README"
@@ -25,7 +25,7 @@ for system in "${!suites[@]}"; do
   cp "$folder"/loopbench[-_]* "$root/root"
 
   inside "apt-get -qq install -y --no-install-recommends python3-pip python3-numpy"
-  inside "pip install --break-system-packages --no-index --find-links . loopbench"
+  inside "pip install --break-system-packages --no-index --only-binary :all: --find-links . loopbench"
   inside "python3 -c 'from loopbench import _core'"
   passed "wheel on $system" "loopbench run quickstart"
   inside "pip uninstall -y --break-system-packages loopbench && rm -rf results && ! command -v loopbench"
