@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "datasets/derive/odometry.hpp"
+#include "datasets/noise/random.hpp"
 #include "methods/correctors/consensus/judge.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/solvers/groups/se2.hpp"
@@ -247,6 +248,38 @@ TEST(Consensus, DropsFalseClosuresAmongHundreds) {
   const double without = rmse(corrected<PoseGraphOptimizer>(clean.problem),
                               at_stamps_of(clean.problem.keyframes, clean.reference));
   EXPECT_LT(rmse(done, at_stamps_of(done, mixed.reference)), 1.2 * without);
+}
+
+TEST(Consensus, DropsAWrongPlaceWhoseRivalsWereNotSearched) {
+  Random random({1, 1}, Purpose::odometry);
+  const auto noisy = [&](const Pose& motion, double sigma_t, double sigma_r) {
+    Twist error = random.normal_twist(sigma_t, sigma_r);
+    error.segment<3>(2).setZero();
+    return normalized(motion * exp_se3(error));
+  };
+  Problem problem = measured_line(110, {});
+  problem.planar = true;
+  for (Edge& edge : problem.odometry) {
+    edge.from_from_to = noisy(at_x(1.0), 0.1, 0.002);
+    edge.information = isotropic_information(0.01, 4e-6);
+    problem.keyframes[edge.to].world_from_body =
+        normalized(problem.keyframes[edge.from].world_from_body * edge.from_from_to);
+  }
+  const auto add = [&](std::size_t from, std::size_t to, double error) {
+    const Pose motion = at_x(static_cast<double>(to - from) + error);
+    problem.closures.push_back(
+        {from, to, noisy(motion, 0.02, 0.002), isotropic_information(4e-4, 4e-6)});
+  };
+  // Of 64 closures each second one is searched. Of those that span everything, these are the wrong
+  // ones, 0.8 m off, which odometry allows; five true ones are compared later.
+  for (std::size_t k = 0; k < 54; ++k) add(10 + k, 30 + k, 0.0);
+  for (std::size_t k = 0; k < 10; ++k) {
+    const bool is_wrong = k == 1 || k == 3, is_short = k % 2 == 1 && !is_wrong;
+    add(is_short ? 80 + k : k, 90 + k, is_wrong ? 0.8 : 0.0);
+  }
+  ASSERT_EQ(evenly_chosen({0, 1, 2, 3}, 2), (std::vector<std::size_t>{1, 3}));
+  ASSERT_EQ(problem.closures.size(), 2 * kSearched<Se2>);
+  EXPECT_THAT(rejected(problem), ElementsAre(std::pair(1UL, 91UL), std::pair(3UL, 93UL)));
 }
 
 TEST(Consensus, DeclinesSim3AndNamesPoseGraph) {

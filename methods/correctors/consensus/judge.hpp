@@ -39,9 +39,8 @@ inline std::vector<std::size_t> evenly_chosen(const std::vector<std::size_t>& cl
                                               std::size_t most) {
   std::vector<std::size_t> out;
   const std::size_t count = std::min(closures.size(), most);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i)
     out.push_back(closures[(2 * i + 1) * closures.size() / (2 * count)]);
-  }
   return out;
 }
 
@@ -184,6 +183,7 @@ class Judge {
     Explanation<G> core{found.factors, {}, widened(chain, chosen, searched, found, kept)};
     core.kept = agreeing_loops(core.model, core.factors, kept, 0);
     if (core.kept.empty()) core.kept = kept;
+    find_anew(core);
     const LoopLikelihood some(core.model, evenly_chosen(core.kept, 2 * kSearched<G>));
     core.factors = climb(some, core.factors, 0.35, 0.15);
     set_factors(core.factors);

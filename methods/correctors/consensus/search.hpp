@@ -46,6 +46,24 @@ bool evaluate(Explanation<G>& of) {
   return std::isfinite(of.score);
 }
 
+/// Finds the loops that agree anew, without any that is preset: loops that were kept before others
+/// were known can exclude these. Replaces `of`, and returns true, if that explains all loops
+/// better.
+template <class G>
+bool find_anew(Explanation<G>& of) {
+  constexpr int kSteps = 2;
+  if (of.kept.size() == of.model.size()) return false;
+  Explanation<G> before = of, anew = of;
+  anew.kept = agreeing_loops(anew.model, anew.factors, {}, 0);
+  if (anew.kept.empty() || std::ranges::is_permutation(anew.kept, of.kept)) return false;
+  for (Explanation<G>* each : {&before, &anew}) {
+    for (int step = 0; step < kSteps; ++step) relinearise(each->model, each->factors, each->kept);
+  }
+  if (!evaluate(anew) || (evaluate(before) && anew.score <= before.score)) return false;
+  of = std::move(anew);
+  return true;
+}
+
 /// Drops kept loops that are more likely outliers given the other kept ones: in each pass those
 /// whose log odds are at least half of the worst. Returns each of those left by the others, or
 /// nothing if that is not known.
