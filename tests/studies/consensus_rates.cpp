@@ -110,11 +110,12 @@ int main(int argc, char** argv) {
       "seconds,decided,factor_t,factor_r,factor_closures,evidence,rival,wrong_step,accused\n");
   for (std::size_t c = 0; c < chains.size(); ++c) {
     if (static_cast<int>(c % 2) != half) continue;
-    const TrueChain& chain = chains[c];
+    const TrueChain with_bias = biased(chains[c]);
     for (int plant = 0; plant <= static_cast<int>(kLastPlant); ++plant) {
       if (argc == 5 && name_of(static_cast<Plant>(plant)).find(argv[4]) == std::string::npos) {
         continue;
       }
+      const TrueChain& chain = is_biased(static_cast<Plant>(plant)) ? with_bias : chains[c];
       for (const double odometry : {0.1, 1.0, 10.0}) {
         const PlantedProblem problem = planted(chain, static_cast<Plant>(plant), odometry, 1);
         const auto falses = std::ranges::count(problem.is_false, true);

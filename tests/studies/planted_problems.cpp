@@ -202,9 +202,13 @@ std::string name_of(Plant plant) {
     case Plant::wrong_step_false:
       return "wrong step 20 % false";
     case Plant::restart:
+      return "new start";
+    case Plant::bias:
+      return "constant bias";
+    case Plant::bias_false:
       break;
   }
-  return "new start";
+  return "constant bias 20 % false";
 }
 
 bool is_gaussian(Plant plant) {
@@ -212,13 +216,17 @@ bool is_gaussian(Plant plant) {
          plant == Plant::family;
 }
 
+bool is_biased(Plant plant) { return plant == Plant::bias || plant == Plant::bias_false; }
+
 PlantedProblem planted(const TrueChain& chain, Plant plant, double odometry, std::int64_t seed) {
   Planter to(chain, 100 * seed + static_cast<std::int64_t>(plant));
   switch (plant) {
     case Plant::none:
+    case Plant::bias:
       to.add_true(kTrue);
       break;
     case Plant::false_20:
+    case Plant::bias_false:
       to.add_true(kTrue), to.add_false(kTrue / 4);
       break;
     case Plant::false_40:

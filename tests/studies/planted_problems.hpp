@@ -28,13 +28,18 @@ enum class Plant {
   wrong_step_30,     ///< thirty times
   wrong_step_false,  ///< a hundred times, and a fifth of the closures is false
   restart,           ///< at one step the odometry starts again at the pose of the first keyframe
+  bias,              ///< none false, on a chain with a biased odometry
+  bias_false,        ///< a fifth of the closures is false, on such a chain
 };
-inline constexpr Plant kLastPlant = Plant::restart;
+inline constexpr Plant kLastPlant = Plant::bias_false;
 
 std::string name_of(Plant plant);
 
 /// Plants for which closures are Gaussian, and none slipped.
 bool is_gaussian(Plant plant);
+
+/// Plants that need a chain of biased().
+bool is_biased(Plant plant);
 
 struct PlantedProblem {
   Problem problem;

@@ -1,5 +1,6 @@
 #include "tests/studies/true_chains.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -58,6 +59,20 @@ TrueChain chain_of(std::string name, const Sequence& sequence, const RevisitRule
   state_true_deviations(out);
   find_true_revisits(out, rule);
   return out;
+}
+
+/// Unit vector along which the true positions have the least extent: the vertical of a vehicle.
+Vector3 least_extent(const Trajectory& truth) {
+  Vector3 mean = Vector3::Zero();
+  for (const StampedPose& each : truth) {
+    mean += each.world_from_body.translation / static_cast<double>(truth.size());
+  }
+  Matrix3 scatter = Matrix3::Zero();
+  for (const StampedPose& each : truth) {
+    const Vector3 offset = each.world_from_body.translation - mean;
+    scatter += offset * offset.transpose();
+  }
+  return Eigen::SelfAdjointEigenSolver<Matrix3>(scatter).eigenvectors().col(0);
 }
 
 struct Recorded {
@@ -130,6 +145,26 @@ std::vector<TrueChain> simulated_chains(std::int64_t first, int count) {
     out.push_back(std::move(chain));
   }
   return out;
+}
+
+TrueChain biased(TrueChain chain) {
+  constexpr double kScale = 0.02;
+  const double yaw_rate = 0.02 * M_PI / 180.0;  // [rad/s]
+  const Vector3 axis = chain.problem.planar ? Vector3::UnitZ() : least_extent(chain.truth);
+  Trajectory& keyframes = chain.problem.keyframes;
+  const Trajectory given = keyframes;
+  for (std::size_t k = 1; k < given.size(); ++k) {
+    const Pose& end = given[k].world_from_body;
+    Pose step = given[k - 1].world_from_body.inverse() * end;
+    step.translation *= 1.0 + kScale;
+    const Vector3 turn = yaw_rate * (given[k].stamp - given[k - 1].stamp) *
+                         (chain.truth[k].world_from_body.rotation.conjugate() * axis);
+    const Pose moved = step * exp_se3(twist(Vector3::Zero(), turn));
+    keyframes[k].world_from_body = normalized(keyframes[k - 1].world_from_body * moved);
+  }
+  chain.problem.odometry = odometry_edges(keyframes, {});
+  state_true_deviations(chain);
+  return chain;
 }
 
 }  // namespace loopbench
