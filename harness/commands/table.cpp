@@ -15,6 +15,7 @@
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
+#include "harness/sweep/model/record_columns.hpp"
 #include "harness/sweep/model/where.hpp"
 #include "harness/sweep/store/read.hpp"
 
@@ -175,8 +176,8 @@ void add_table(CLI::App& app, int& exit_code) {
   CLI::App& command = *app.add_subcommand("table", "Print tables of a sweep's results");
   declare_store(command, a.store);
   const std::string columns =
-      "comma-separated fields (sequence, repeat, method, closures, protocol, times, metric, label, "
-      "relation, axis, unit, status, score) or options of methods (planar)";
+      fmt::format("comma-separated fields ({})", fmt::join(record_columns(), ", ")) +
+      " or options of methods (planar)";
   const auto layout = [&](const char* name,
                           std::vector<std::string>& fields,
                           const char* before,

@@ -199,6 +199,7 @@ TEST_F(Damage, ADescriptionIsRejectedByItsRowAndWrittenAgain) {
        {std::tuple("UPDATE run SET value = 'x' WHERE key = 'config'", "row config of", none),
         std::tuple("UPDATE run SET key = 'x' WHERE key = 'baseline'", "row x of", none),
         std::tuple("UPDATE run SET value = 9 WHERE key = 'cells'", "row cells of", none),
+        std::tuple("DELETE FROM run WHERE key = 'alignment'", "row alignment of", none),
         std::tuple("UPDATE provenance SET value = 'x'", "of its table provenance", none),
         std::tuple("UPDATE provenance SET row_hash = 1", "of its table provenance", none),
         std::tuple("UPDATE input SET path = 'x'", "of its table input", with_file),

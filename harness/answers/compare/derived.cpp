@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "harness/answers/compare/levels.hpp"
+#include "harness/sweep/model/record_columns.hpp"
 #include "harness/sweep/model/where.hpp"
 
 namespace loopbench::harness {
@@ -160,10 +161,12 @@ namespace {
 /// Whether a name of a score, or rules, are about a cost. Rules about cells are not: a label can
 /// contain the name of a cost.
 bool is_about_cost(const std::string& text, const CellScore& cost) {
-  constexpr std::array<std::string_view, 5> kOfCells{
-      "sequence", "repeat", "method", "closures", "status"};
   return std::ranges::any_of(split_rules(text), [&](const std::string& rule) {
-    if (std::ranges::count(kOfCells, field_of_rule(rule)) > 0) return false;
+    const std::string field = field_of_rule(rule);
+    const auto is_of_cell = [&](const RecordColumn& each) {
+      return each.is_of_cell && field == each.name;
+    };
+    if (std::ranges::any_of(kRecordColumns, is_of_cell)) return false;
     return rule == cost.label || rule.find(cost.metric) != std::string::npos ||
            rule.find(std::string("label=") + cost.label) != std::string::npos;
   });

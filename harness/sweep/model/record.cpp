@@ -1,8 +1,10 @@
 #include "harness/sweep/model/record.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "datasets/core/error.hpp"
+#include "harness/sweep/model/record_columns.hpp"
 #include "harness/sweep/text/suggest.hpp"
 
 namespace loopbench::harness {
@@ -43,32 +45,27 @@ std::optional<std::string> option_of(const CellRow& cell, const std::string& nam
   return all.substr(begin, std::min(all.find(", ", begin), all.find("; + ", begin)) - begin);
 }
 
-std::vector<std::string> known_fields() {
-  std::vector<std::string> out{"sequence", "repeat", "method", "closures"};
-  for (const KindField& each : kKindFields) out.emplace_back(each.name);
-  out.insert(out.end(), {"status", "score"});
-  return out;
+const RecordColumn* column_named(const std::string& name) {
+  const auto* const found = std::ranges::find(kRecordColumns, name, &RecordColumn::name);
+  return found == std::end(kRecordColumns) ? nullptr : found;
 }
 
 }  // namespace
 
+std::vector<std::string> record_columns() {
+  std::vector<std::string> out;
+  for (const RecordColumn& each : kRecordColumns) out.emplace_back(each.name);
+  return out;
+}
+
 bool has_field(const Record& record, const std::string& name) {
-  return std::ranges::count(known_fields(), name) > 0 || option_of(*record.cell, name);
+  return column_named(name) != nullptr || option_of(*record.cell, name);
 }
 
 std::string field(const Record& record, const std::string& name) {
-  if (name == "sequence") return record.cell->sequence;
-  if (name == "repeat") return std::to_string(record.cell->repeat);
-  if (name == "method") return record.cell->method;
-  if (name == "closures") return record.cell->closures;
-  if (name == "label") return record.kind->metric_label();
-  if (name == "status") return to_text(record.status);
-  if (name == "score") return record.kind->short_name();
-  for (const KindField& each : kKindFields) {
-    if (name == each.name) return (*record.kind).*each.text;
-  }
+  if (const RecordColumn* const column = column_named(name)) return column->text(record);
   if (const auto option = option_of(*record.cell, name)) return *option;
-  throw InputError(unknown_name("column", name, known_fields()));
+  throw InputError(unknown_name("column", name, record_columns()));
 }
 
 double value(const Record& record, const std::string& name) {

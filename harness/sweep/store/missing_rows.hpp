@@ -38,8 +38,15 @@ inline std::set<std::string> incomplete_provenance(Database& database) {
 
 /// A key that every table run has and this one has not; empty: none.
 inline std::string missing_run_value(Database& database) {
-  for (const char* const key :
-       {"loopbench", "sweep", "config", "protocol", "metrics", "methods", "baseline", "cells"}) {
+  for (const char* const key : {"loopbench",
+                                "sweep",
+                                "config",
+                                "protocol",
+                                "alignment",
+                                "metrics",
+                                "methods",
+                                "baseline",
+                                "cells"}) {
     Statement row = database.prepare("SELECT 1 FROM run WHERE key = ?");
     if (!row.bind(std::string_view(key)).step()) return key;
   }
