@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2034  # the lists are used by the scripts that source this
 # Sourced by run.sh and test.sh: install_missing PACKAGE... installs missing packages and prints their names.
-# For Debian 12 and 13 and Ubuntu 24.04: these packages have the same names in all of them.
+# Debian 12 and 13 have these names; those of Ubuntu 24.04 were not checked.
 
 packages=(
   clang cmake ninja-build
