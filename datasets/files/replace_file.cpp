@@ -74,6 +74,19 @@ int create_temporary_file(const FilePath& folder, FilePath& file) {
   return -1;
 }
 
+/// Closes it.
+struct Descriptor {
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+ private:
+  int number_;
+};
+
 thread_local int syncs_are_off = 0;
 
 InputError cannot_write(const FilePath& file, const std::string& why) {
@@ -158,6 +171,9 @@ void PendingFile::write(std::string_view bytes) {
 void PendingFile::commit() {
   const bool is_synced = part_.empty() || syncs_are_off > 0 || ::fsync(descriptor_) == 0;
   const int reason = is_synced ? 0 : errno;
+  // The lock is kept until the file has its name: another process would take it for one that is
+  // left.
+  const Descriptor lock{part_.empty() ? -1 : ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0)};
   const int descriptor = std::exchange(descriptor_, -1);
   // Some file systems report a full disk only on closing.
   if (::close(descriptor) != 0) throw cannot_write(file_, std::strerror(errno));
