@@ -109,8 +109,9 @@ std::string why_not_judged(const Problem& problem);
 ///
 /// At most a bounded number of closures, evenly chosen, take part in the search; the others are
 /// then compared with the result, so that the cost is bounded: O(keyframes + closures), with a
-/// large constant. Anchors are not used. Deterministic. Requires why_not_judged() to be empty. No
-/// reference is used.
+/// large constant. Where closures of the search are dropped, the set is also built anew from all,
+/// and the likelier one stays. Anchors are not used. Deterministic. Requires why_not_judged() to be
+/// empty. No reference is used.
 ClosureJudgement judge_closures(const Problem& problem);
 
 /// The problem with the closures that agree, its information divided by the squared factors and
