@@ -135,7 +135,7 @@ bool choose_sequences(TableArguments& arguments) {
 }
 
 /// For a paper: the first score of each sequence; of one sequence its translation and rotation,
-/// gain and time.
+/// change and processor time.
 void choose_for_paper(TableArguments& arguments) {
   const Record first = first_score(arguments.store);
   if (!first.has_score()) return;
@@ -147,7 +147,7 @@ void choose_for_paper(TableArguments& arguments) {
     return;
   }
   arguments.where.clear();
-  arguments.spec.show = {score, "gain", "time"};
+  arguments.spec.show = {score, "change", "cpu"};
   arguments.spec.split = {"sequence"};
 }
 

@@ -147,6 +147,20 @@ TEST(Pivot, AveragesGainsOverCommonRuns) {
             "baseline");
 }
 
+TEST(Pivot, AveragesChangesAsVerdictsDo) {
+  std::vector<Record> records =
+      errors({{"raw", {1.0, 1.0}}, {"dm", {0.5, 0.125}}, {"gp", {2.0, 2.0}}});
+  for (const Record& change : changes(records, "raw")) records.push_back(change);
+  const Table table = table_of(records);
+  EXPECT_EQ(table.headings[2], "change [%]");
+  EXPECT_EQ(table.lines[0][2].text, "0.00");
+  EXPECT_NEAR(*table.lines[1][2].value, -75.0, 1e-12);
+  EXPECT_NEAR(*table.lines[2][2].value, 100.0, 1e-12);
+  EXPECT_EQ(table.notes[0],
+            "each number is the mean of up to 2 cells; change is the geometric mean ratio to the "
+            "baseline - 1");
+}
+
 TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
   std::vector<Record> records =
       errors({{"raw", {1.0, 3.0}}, {"dm", {2.0, kNone}}, {"gp", {5.0, 7.0}}});

@@ -152,6 +152,21 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
   return out;
 }
 
+std::vector<Record> changes(const std::vector<Record>& records, const std::string& baseline) {
+  DerivedKinds kinds;
+  std::vector<Record> out = gains(records, baseline);
+  for (Record& r : out) {
+    r.kind = kinds.of(*r.kind, [](ScoreKind& kind) {
+      kind.metric = "change";
+      if (!kind.label.empty()) kind.label.replace(0, std::string_view("gain").size(), "change");
+      kind.better = metrics::Better::lower;
+    });
+    for (const auto& each : metrics::kStatisticFields)
+      r.statistics.*each.member = 0.0 - r.statistics.*each.member;  // not -0
+  }
+  return out;
+}
+
 std::vector<Record> run_times(const std::vector<Record>& records) {
   return scores_of_cells(records, {"time", "", "ms", metrics::Better::lower, milliseconds_of});
 }
@@ -192,6 +207,11 @@ void add_derived(std::vector<Record>& records,
   std::ranges::move(pair_counts(records), std::back_inserter(derived));
   std::ranges::move(run_times(records), std::back_inserter(derived));
   std::ranges::move(cost_scores(records, asked), std::back_inserter(derived));
+  const auto is_change = [](const std::string& text) {
+    return text.find("change") != std::string::npos;
+  };
+  if (std::ranges::any_of(asked, is_change))
+    std::ranges::move(changes(records, baseline), std::back_inserter(derived));
   std::ranges::move(derived, std::back_inserter(records));
 }
 

@@ -15,6 +15,9 @@ namespace loopbench::harness {
 /// by their ratios (see pivot.hpp). Empty if `baseline` is empty. O(n log n).
 std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline);
 
+/// As gains(), but below zero where the error is lower, as in verdicts: metric `change`.
+std::vector<Record> changes(const std::vector<Record>& records, const std::string& baseline);
+
 /// One record per cell, protocol and times: metric `time`, unit ms, every statistic is the median
 /// wall time. None of files that `eval --store` evaluated.
 std::vector<Record> run_times(const std::vector<Record>& records);

@@ -83,10 +83,11 @@ std::string change_text(const std::optional<Change>& change, double narrow) {
 /// All methods of a comparison in its order, the best first, then those without a value.
 std::string methods_html(const ReportContent& content, const Comparison& c) {
   const Verdict verdict = verdict_of(c, content.comparisons);
-  std::vector<std::string> headings{words_of(content).one,
-                                    unit_heading("median " + c.kind.metric_label(), c.kind.unit),
-                                    "change [%]",
-                                    fmt::format("{:g} %", 100.0 * (1.0 - c.options.alpha))};
+  std::vector<std::string> headings{
+      words_of(content).one,
+      unit_heading((c.runs > 1 ? "median " : "") + std::string(c.kind.metric_label()), c.kind.unit),
+      "change [%]",
+      fmt::format("{:g} %", 100.0 * (1.0 - c.options.alpha))};
   for (const std::string& sequence : verdict.sequences) headings.push_back(sequence);
   double largest = 0.0;
   for (const MethodVerdict& m : c.methods) largest = std::max(largest, std::abs(m.median));

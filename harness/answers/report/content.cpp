@@ -46,7 +46,7 @@ const Comparison* ReportContent::headline() const { return harness::headline(com
 
 ReportWords words_of(const ReportContent& content) {
   if (!is_of_files(content.run_value("config"))) return {};
-  return {.one = "estimate", .cell = "evaluation"};
+  return {.one = "estimate", .cell = "evaluation", .cells = "evaluations"};
 }
 
 void ReportContent::show(std::size_t count) {

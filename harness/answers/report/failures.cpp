@@ -19,12 +19,14 @@ struct Affected {
 
 /// One line per reason; with a column for the scores if there are any.
 std::string reasons_table(const std::string& title,
+                          const ReportWords& words,
                           const std::map<Reason, Affected>& reasons,
                           bool has_scores) {
   if (reasons.empty()) return "";
-  Table out{title, {"method", "status"}, {}, {}};
+  Table out{title, {words.one, "status"}, {}, {}};
   if (has_scores) out.headings.emplace_back("scores");
-  for (const char* heading : {"cells", "sequences", "why"}) out.headings.emplace_back(heading);
+  out.headings.emplace_back(words.cells);
+  for (const char* heading : {"sequences", "why"}) out.headings.emplace_back(heading);
   const auto listed = [](const auto& names) { return fmt::format("{}", fmt::join(names, ", ")); };
   for (const auto& [reason, affected] : reasons) {
     const auto& [status, method, why] = reason;
@@ -74,10 +76,13 @@ std::map<Reason, Affected> reasons_of_scores(const ReportContent& content) {
 }  // namespace
 
 std::string failures_html(const ReportContent& content) {
+  const ReportWords words = words_of(content);
   const std::string out =
-      reasons_table("cells without results", reasons_of_cells(content), false) +
-      reasons_table("undefined or incomplete scores", reasons_of_scores(content), true);
-  return out.empty() ? "<p>Every cell finished and every score has a value.</p>\n" : out;
+      reasons_table(
+          std::string(words.cells) + " without results", words, reasons_of_cells(content), false) +
+      reasons_table("undefined or incomplete scores", words, reasons_of_scores(content), true);
+  if (!out.empty()) return out;
+  return fmt::format("<p>Every {} finished and every score has a value.</p>\n", words.cell);
 }
 
 }  // namespace loopbench::harness

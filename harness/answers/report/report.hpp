@@ -49,6 +49,7 @@ struct ReportContent {
 struct ReportWords {
   const char* one = "method";
   const char* cell = "cell";
+  const char* cells = "cells";
 };
 
 /// Of evaluated files: estimates, and evaluations.

@@ -84,7 +84,7 @@ std::string scores_html(const ReportContent& content) {
     part(sequence, "keyframes");
     part(sequence, "dense");
   }
-  return out.empty() ? "<p>No cell has scores.</p>\n" : out;
+  return out.empty() ? fmt::format("<p>No {} has scores.</p>\n", words_of(content).cell) : out;
 }
 
 std::string provenance_html(const ReportContent& content) {

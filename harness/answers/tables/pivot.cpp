@@ -104,7 +104,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   entry.is_gap = record.kind->metric == "optimality" && record.kind->relation == "gap" &&
                  spec.value != "count";
   add_error_count(table, column, record);
-  entry.is_gain = record.kind->metric == "gain" && spec.value != "count";
+  entry.ratio_sign = spec.value == "count" ? 0 : sign_of_ratio(record.kind->metric);
   entry.is_oracle = record.cell->oracle;
   entry.values.push_back({run,
                           table.group_of_run[run],
@@ -116,12 +116,13 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
 /// Adds a note on how the numbers were averaged, and facts for a caption.
 void explain_averages(Table& out, const TableNumbers& table, const TableSpec& spec) {
   std::size_t most = 1;
-  bool has_gain = false, is_uneven = false;
+  bool is_uneven = false;
+  std::set<int> ratio_signs;
   for (const std::vector<TableEntry>& row : table.entries) {
     for (const TableEntry& entry : row) {
       most = std::max(most, entry.kept().size());
-      has_gain = has_gain || entry.is_gain;
-      is_uneven = is_uneven || (!entry.is_gain && entry.is_uneven());
+      ratio_signs.insert(entry.ratio_sign);
+      is_uneven = is_uneven || (!entry.is_ratio() && entry.is_uneven());
     }
   }
   std::set<std::string> times;
@@ -129,13 +130,14 @@ void explain_averages(Table& out, const TableNumbers& table, const TableSpec& sp
     if (each.column) times.insert(each.record->kind->times);
   }
   times.erase("");
-  out.facts = fmt::format(
-      "{}; times: {}; runs per number: at most {}", spec.value, fmt::join(times, ", "), most);
+  out.facts = fmt::format("{}; times: {}", spec.value, fmt::join(times, ", "));
   if (most < 2) return;
+  out.facts += fmt::format("; runs per number: at most {}", most);
   out.averages = {.most = most,
                   .is_uneven = is_uneven,
                   .deviation = spec.plus_minus ? Deviation::standard : Deviation::none,
-                  .has_gain = has_gain};
+                  .has_gain = ratio_signs.contains(-1),
+                  .has_change = ratio_signs.contains(1)};
   out.notes.insert(out.notes.begin(), averages_text(*out.averages));
 }
 

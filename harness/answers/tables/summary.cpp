@@ -19,7 +19,8 @@ constexpr std::size_t kMostMethods = 16;
 constexpr std::size_t kMostReasons = 5;
 
 bool is_derived(const Record& r) {
-  return r.kind->metric == "gain" || r.kind->metric == "pairs" || r.kind->metric == "time";
+  return sign_of_ratio(r.kind->metric) != 0 || r.kind->metric == "pairs" ||
+         r.kind->metric == "time";
 }
 
 /// The records that can lead the summary, and those of cells without scores: one protocol, one kind
@@ -144,7 +145,7 @@ std::vector<Table> summary(const std::vector<Record>& records,
   if (std::ranges::any_of(own, [](const Record& r) { return r.cell->is_stated(); }))
     table.notes.emplace_back(kStatedNote);
   if (table.lines.size() > kMostMethods) {
-    table.notes.push_back(fmt::format("and {} more methods", table.lines.size() - kMostMethods));
+    table.notes.push_back("and " + counted(table.lines.size() - kMostMethods, "more method"));
     table.lines.resize(kMostMethods);
   }
   const std::string oracle = oracle_closures_note(oracle_sequences, kMostSequences);

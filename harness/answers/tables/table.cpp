@@ -54,6 +54,7 @@ std::string averages_text(const Averages& averages) {
   if (averages.deviation == Deviation::half_interval)
     out += ", \u00b1 half of the 95 % interval of the mean (Student)";
   if (averages.has_gain) out += "; gain is 1 - the geometric mean ratio to the baseline";
+  if (averages.has_change) out += "; change is the geometric mean ratio to the baseline - 1";
   return out;
 }
 

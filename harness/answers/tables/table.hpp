@@ -49,6 +49,7 @@ struct Averages {
   bool is_uneven = false;  ///< sequences have different numbers of cells, and count once each
   Deviation deviation = Deviation::none;
   bool has_gain = false;
+  bool has_change = false;
 };
 
 /// The note about them: "each number is the mean of up to 6 cells".

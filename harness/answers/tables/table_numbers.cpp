@@ -7,19 +7,21 @@
 namespace loopbench::harness {
 namespace {
 
-/// 1 - the geometric mean ratio. Of several values of a method on a run the last one counts.
-double mean_gain(const TableEntry& entry) {
+/// The gain or change of the geometric mean ratio. Of several values of a method on a run the last
+/// one counts.
+double mean_change(const TableEntry& entry) {
   std::map<std::size_t, std::map<std::pair<SharedText, std::size_t>, double>> by_group;
   for (const TableEntry::Value& one : entry.values) {
     if (one.is_kept) by_group[one.group][{one.method, one.run}] = one.value;
   }
   std::vector<double> groups;
-  for (const auto& [group, gains] : by_group) {
+  for (const auto& [group, changes] : by_group) {
     std::vector<double> logarithms;
-    for (const auto& [run, gain] : gains) logarithms.push_back(std::log(1.0 - 0.01 * gain));
+    for (const auto& [run, change] : changes)
+      logarithms.push_back(std::log(1.0 + 0.01 * entry.ratio_sign * change));
     groups.push_back(metrics::mean(logarithms));
   }
-  return 100.0 * (1.0 - std::exp(metrics::mean(groups)));
+  return 100.0 * entry.ratio_sign * (std::exp(metrics::mean(groups)) - 1.0);
 }
 
 std::map<SharedText, std::vector<double>> kept_by_sequence(const TableEntry& entry) {
@@ -174,11 +176,11 @@ bool TableEntry::is_uneven() const {
 std::optional<double> TableEntry::average() const {
   const std::vector<double> all = kept();
   // One zero error would make the geometric mean zero.
-  const auto zeros = std::ranges::count(all, 100.0);
-  const bool has_no_mean = is_gain && zeros > 0 && zeros < std::ssize(all);
+  const auto zeros = std::ranges::count(all, -100.0 * ratio_sign);
+  const bool has_no_mean = is_ratio() && zeros > 0 && zeros < std::ssize(all);
   if (all.empty() || has_no_mean) return std::nullopt;
-  double out = is_gain ? mean_gain(*this) : metrics::mean(all);
-  if (!is_gain && is_uneven()) out = mean_of_sequences(*this);
+  double out = is_ratio() ? mean_change(*this) : metrics::mean(all);
+  if (!is_ratio() && is_uneven()) out = mean_of_sequences(*this);
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 
@@ -188,7 +190,7 @@ std::vector<double> TableEntry::weights() const {
   const auto sequences = static_cast<double>(
       std::ranges::count_if(counts, [](const auto& each) { return each.second > 0.0; }));
   const double equal = 1.0 / static_cast<double>(kept().size());
-  const bool is_by_sequence = !is_gain && is_uneven();
+  const bool is_by_sequence = !is_ratio() && is_uneven();
   std::vector<double> out;
   for (const Value& one : values) {
     if (!one.is_kept) continue;

@@ -35,7 +35,8 @@ struct TableEntry {
   std::vector<Value> values = {};
   std::string status = {};      ///< of a record that has no value
   Shared<ScoreKind> kind = {};  ///< of a record
-  bool is_gain = false;
+  /// Of the score `gain` -1, of `change` 1: values are 100 * sign * (ratio to the baseline - 1).
+  int ratio_sign = 0;
   bool is_oracle = false;
   bool is_stated = false;  ///< has times that programs state
   bool is_gap = false;     ///< a gap of the metric optimality
@@ -48,8 +49,9 @@ struct TableEntry {
   std::vector<double> kept() const;
   /// Whether its sequences have different numbers of averaged values.
   bool is_uneven() const;
-  /// The mean, in which each sequence counts once; for gains 1 - the geometric mean ratio, over
-  /// groups. nullopt if that is not a number.
+  bool is_ratio() const { return ratio_sign != 0; }
+  /// The mean, in which each sequence counts once; for gains and changes that of the geometric mean
+  /// ratio, over groups. nullopt if that is not a number.
   std::optional<double> average() const;
   /// Number of values of equal weight whose mean is as certain: 1 / sum of the squared weights. It
   /// is that of the averaged values, unless each sequence counts once and they have different

@@ -102,11 +102,16 @@ metrics::Better direction_of(const ScoreKind& kind, const std::string& statistic
   return has_direction(statistic) ? kind.better : metrics::Better::neither;
 }
 
+int sign_of_ratio(const std::string& metric) {
+  if (metric == "gain") return -1;
+  return metric == "change" ? 1 : 0;
+}
+
 std::string unit_of(const ScoreKind& kind, const std::string& statistic) {
   const std::string& unit = kind.unit;
   if (statistic == "count") return "";
-  // The sum of squares of a gain is the gain of the sum of squares.
-  const bool is_squared = statistic == "sse" && kind.metric != "gain";
+  // The sum of squares of a gain or change is that of the sum of squares.
+  const bool is_squared = statistic == "sse" && sign_of_ratio(kind.metric) == 0;
   if (!is_squared || unit.empty() || unit == "1") return unit;
   const bool is_product = unit.find_first_of("/* ^") != std::string::npos;
   return (is_product ? "(" + unit + ")" : unit) + "^2";

@@ -171,4 +171,7 @@ std::vector<std::string> directed_statistics();
 metrics::Better direction_of(const ScoreKind& kind, const std::string& statistic);
 std::string unit_of(const ScoreKind& kind, const std::string& statistic);
 
+/// Of the metric `gain` -1, of `change` 1: 100 * sign * (ratio to the baseline - 1); of others 0.
+int sign_of_ratio(const std::string& metric);
+
 }  // namespace loopbench::harness
