@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "harness/sweep/store/match_cells.hpp"
 #include "harness/sweep/store/merge.hpp"
-#include "harness/sweep/store/resume.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::tiny_store::shard_test {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "harness/sweep/model/cell_columns.hpp"
+#include "harness/sweep/model/cell_fields.hpp"
 #include "harness/sweep/text/printable.hpp"
 
 namespace loopbench::harness {
@@ -31,7 +31,7 @@ std::string field_text(const Value& value) {
 std::vector<std::string> fields_of(const Record& r) {
   const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
   std::vector<std::string> out;
-  fields(*r.cell, [&](const CellColumn& column, const auto& value) {
+  fields(*r.cell, [&](const CellField& column, const auto& value) {
     if (column.name_in_rows[0] != '\0') out.push_back(field_text(value));
   });
   out.reserve(40);
@@ -86,7 +86,7 @@ std::string quoted(const std::string& raw) {
 std::string rows_header() {
   std::string out;
   const CellRow none;
-  fields(none, [&](const CellColumn& column, const auto&) {
+  fields(none, [&](const CellField& column, const auto&) {
     if (column.name_in_rows[0] != '\0') out += std::string(column.name_in_rows) + ",";
   });
   for (const KindField& each : kKindFields) out += std::string(each.name) + ",";

@@ -46,7 +46,7 @@ RunPlan plan(const RunArguments& arguments) {
   return out;
 }
 
-SandboxOptions sandbox_of(const RunPlan& plan, const RunArguments& arguments) {
+SandboxOptions sandbox_of_sweep(const RunPlan& plan, const RunArguments& arguments) {
   namespace fs = std::filesystem;
   SandboxOptions out;
   out.enabled = !arguments.no_sandbox;

@@ -58,6 +58,6 @@ struct RunPlan {
 RunPlan plan(const RunArguments& arguments);
 
 /// Hides the data of all sequences, also of those that are not loaded yet, and all stores in reach.
-SandboxOptions sandbox_of(const RunPlan& plan, const RunArguments& arguments);
+SandboxOptions sandbox_of_sweep(const RunPlan& plan, const RunArguments& arguments);
 
 }  // namespace loopbench::harness

@@ -130,7 +130,7 @@ void tell(const RunPlan& plan, const CellCounts& counts, std::optional<Store>& s
 /// Returns the exit code. Throws InputError, MissingPart.
 int run_config(const RunArguments& arguments, const Source& source) {
   const RunPlan planned = plan(arguments);
-  program_sandbox() = sandbox_of(planned, arguments);  // from here on programs can be started
+  program_sandbox() = sandbox_of_sweep(planned, arguments);  // from here on programs can be started
   if (arguments.dry_run) {
     return dry_run(planned.sweep, planned.planned, planned.known, planned.root);
   }

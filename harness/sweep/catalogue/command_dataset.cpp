@@ -119,9 +119,9 @@ std::string output_key(const CommandDatasetOptions& o,
 }
 
 /// Restrictions of the program: it sees its sequence, but not the reference.
-SandboxOptions sandbox_of(const CommandDatasetOptions& o,
-                          const DataRoot& root,
-                          const std::filesystem::path& sequence) {
+SandboxOptions sandbox_of_sequence(const CommandDatasetOptions& o,
+                                   const DataRoot& root,
+                                   const std::filesystem::path& sequence) {
   SandboxOptions options = program_sandbox();
   if (!o.trajectory.reference.empty()) {
     const std::filesystem::path reference = root.find(o.trajectory.reference);
@@ -138,7 +138,7 @@ ProgramCost run_program(const CommandDatasetOptions& o,
                         const std::filesystem::path& folder,
                         const std::filesystem::path& sequence,
                         const std::filesystem::path& trajectory) {
-  const SandboxOptions sandbox = sandbox_of(o, root, sequence);
+  const SandboxOptions sandbox = sandbox_of_sequence(o, root, sequence);
   ProgramStart start = start_on({{"sequence", sequence}, {"trajectory", trajectory}},
                                 trajectory.parent_path(),
                                 o.run,

@@ -1,5 +1,5 @@
-/// The columns that tables are arranged and filtered by, beside options of methods: a line adds
-/// one.
+/// The columns of `table --rows`, `--columns`, `--split` and `--where`, beside options of methods:
+/// a line adds one.
 #pragma once
 
 #include <string>

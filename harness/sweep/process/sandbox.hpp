@@ -7,6 +7,10 @@
 /// nothing else can be signalled or left for others, and all of it ends with it; and a network of
 /// its own, without any other machine, unless its config says `network: true`.
 ///
+/// What is hidden is set by `run`, sandbox_of_sweep() in commands/run/plan.cpp, and for a dataset
+/// that is a program also by sandbox_of_sequence() in sweep/catalogue/command_dataset.cpp. Programs
+/// are started by RunningProgram (program.hpp).
+///
 /// Not protected: hidden files under other names (hard links, copies). Methods in C++ are not
 /// restricted: their process contains the reference that the cell is evaluated against.
 #pragma once

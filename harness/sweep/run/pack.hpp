@@ -9,7 +9,7 @@
 
 #include "datasets/core/pack.hpp"
 #include "datasets/core/sequence.hpp"
-#include "harness/sweep/model/cell_columns.hpp"
+#include "harness/sweep/model/cell_fields.hpp"
 #include "harness/sweep/model/result.hpp"
 #include "harness/sweep/model/sweep.hpp"
 
@@ -80,7 +80,7 @@ void walk(Archive& a, T& values) {
 template <class Archive, Either<harness::CellResult> T>
 void walk(Archive& a, T& r) {
   a(r.cell)(r.status)(r.why)(r.signal)(r.worker)(r.oracle_method)(r.seconds)(r.cpu_seconds);
-  harness::measured_fields(r, [&](const harness::CellColumn&, auto& fact) { a(fact); });
+  harness::measured_fields(r, [&](const harness::CellField&, auto& fact) { a(fact); });
   a(r.report.phases)(r.report.counts)(r.report.notes)(r.report.sections)(r.notes);
   a(r.scores)(r.trace.times)(r.trace.samples)(r.trace.values);
 }

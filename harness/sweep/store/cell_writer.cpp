@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "harness/sweep/model/cell_columns.hpp"
+#include "harness/sweep/model/cell_fields.hpp"
 #include "harness/sweep/model/note_text.hpp"
 #include "harness/sweep/store/note_rows.hpp"
 #include "harness/sweep/store/stored_cells.hpp"
@@ -182,7 +182,7 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   cell_.bind(nullptr, cell.index, keys.key(cell, metadata.inputs), keys.build());
   cell_.bind(keys.sequence_key(cell, metadata.inputs), provenance_key_);
   cell_.bind(write_notes(metadata.notes), metadata.notes.size());
-  fields(row, [&](const CellColumn&, const auto& value) { bind_field(cell_, value); });
+  fields(row, [&](const CellField&, const auto& value) { bind_field(cell_, value); });
   cell_.bind(std::ranges::count_if(result.scores, is_failure, &ScoreResult::status));
   cell_.bind(result.scores.size(), 0, 0).run();  // see set_hashes()
   return database_.last_row();

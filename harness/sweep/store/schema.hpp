@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "harness/sweep/model/cell_columns.hpp"
+#include "harness/sweep/model/cell_fields.hpp"
 #include "metrics/numerics/statistics.hpp"
 
 namespace loopbench::harness {
@@ -42,7 +42,7 @@ inline std::string sql_type(std::optional<std::int64_t>) { return "INTEGER"; }
 inline std::string cell_column_definitions() {
   std::string out;
   CellRow none;
-  fields(none, [&](const CellColumn& column, const auto& value) {
+  fields(none, [&](const CellField& column, const auto& value) {
     std::string line = std::string(column.name) + " " + sql_type(value) + ",";
     if (column.meaning[0] != '\0') {
       constexpr std::size_t kMeaning = 35;  // column of the comments
@@ -58,7 +58,7 @@ inline std::string cell_column_definitions() {
 inline std::string cell_column_names() {
   std::string out;
   CellRow none;
-  fields(none, [&](const CellColumn& column, const auto&) {
+  fields(none, [&](const CellField& column, const auto&) {
     out += (out.empty() ? "cell." : ", cell.") + std::string(column.name);
   });
   return out;

@@ -7,7 +7,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/sweep/run/build.hpp"
 #include "harness/sweep/store/cell_writer.hpp"
-#include "harness/sweep/store/resume.hpp"
+#include "harness/sweep/store/match_cells.hpp"
 #include "harness/sweep/store/stored_cells.hpp"
 #include "harness/sweep/text/hash.hpp"
 
@@ -202,7 +202,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   std::vector<StoredCell> stored = read_stored_cells(*database_);
   const std::vector<std::string> damaged = remove_damaged(*database_, stored);
   if (!damaged.empty()) repair_structure(*database_, true);
-  Resumed out = match(*database_, stored, keys_, all, planned, retry);
+  Resumed out = match_cells(*database_, stored, keys_, all, planned, retry);
   out.damaged = damaged;
   const bool is_described = update_description();
   out.unchanged = out.unchanged && damaged.empty() && is_described;

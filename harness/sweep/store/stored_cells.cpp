@@ -94,7 +94,7 @@ std::vector<StoredCell> read_stored_cells(Database& database) {
     std::string notes_key;
     std::int64_t notes = 0;
     row.read(notes_key, notes);
-    fields(c, [&](const CellColumn&, auto& value) { read_field(row, value); });
+    fields(c, [&](const CellField&, auto& value) { read_field(row, value); });
     row.read(c.failed_scores, c.scores, c.trace_hash);
     c.intact = known_provenance.contains(provenance_key) &&
                !damaged_provenance.contains(provenance_key) &&

@@ -1,4 +1,4 @@
-#include "harness/sweep/store/resume.hpp"
+#include "harness/sweep/store/match_cells.hpp"
 
 #include <algorithm>
 #include <map>
@@ -93,12 +93,12 @@ std::vector<const StoredCell*> claim(const std::vector<StoredCell>& stored,
 
 }  // namespace
 
-Resumed match(Database& database,
-              const std::vector<StoredCell>& stored,
-              CellKeys& keys,
-              const std::vector<Cell>& all,
-              const std::vector<Cell>& planned,
-              Retry retry) {
+Resumed match_cells(Database& database,
+                    const std::vector<StoredCell>& stored,
+                    CellKeys& keys,
+                    const std::vector<Cell>& all,
+                    const std::vector<Cell>& planned,
+                    Retry retry) {
   const Sweep& sweep = keys.sweep();
   const std::vector<const StoredCell*> claimed = claim(stored, database, keys, all);
 
