@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <utility>
@@ -87,7 +88,7 @@ void add_correct(CLI::App& app, int& exit_code) {
          add(*command, "-o,--out FILE", c.out, "Output file; - is standard output"),
          FileKind::trajectory);
   add(*command,
-      "--to WORD:tum|kitti|euroc|g2o|csv",
+      "--to WORD:" + fmt::format("{}", fmt::join(written_formats(), "|")),
       a->to,
       "Output format (default: csv, g2o or kitti if -o ends in .csv, .g2o or .kitti, otherwise "
       "tum); g2o contains all edges");

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "datasets/core/fields.hpp"
@@ -29,7 +30,7 @@ void declare_output(CLI::App& verb, TrajArguments& a) {
   const char* const help = "Output file, or folder for several; - is standard output";
   writes(verb, add(verb, "-o,--out PATH", a.out, help), FileKind::trajectory);
   add(verb,
-      "--to WORD:tum|kitti|euroc|g2o|csv",
+      "--to WORD:" + fmt::format("{}", fmt::join(written_formats(), "|")),
       a.to,
       "Output format (default: by the ending of -o, or tum)");
   writes(verb,
@@ -164,6 +165,14 @@ const std::vector<VerbInfo>& verb_infos() {
 
 }  // namespace
 
+std::vector<std::string> written_formats() {
+  std::vector<std::string> out;
+  for (const auto& [name, format] : choices(Format{})) {
+    if (can_write(format)) out.emplace_back(name);
+  }
+  return out;
+}
+
 Format written_format(const std::string& out, const std::string& to) {
   static const std::map<std::string, Format> kEndings{{"", Format::tum},
                                                       {".txt", Format::tum},
@@ -180,12 +189,8 @@ Format written_format(const std::string& out, const std::string& to) {
         out +
         ": expected a file name that ends in .txt, .tum, .csv, .g2o or .kitti, or --to FORMAT");
   }
-  std::vector<std::string> known;
-  for (const auto& [name, format] : choices(Format{})) {
-    if (!can_write(format)) continue;
-    if (name == to) return format;
-    known.emplace_back(name);
-  }
+  const std::vector<std::string> known = written_formats();
+  if (std::ranges::count(known, to) > 0) return from_text<Format>(to).value();
   throw OptionError(
       "to", fmt::format("to = {}: expected one of {}", to, fmt::join(known, " | ")), {to, known});
 }

@@ -52,6 +52,9 @@ struct TrajArguments {
 
 using TrajVerb = std::function<int(const TrajArguments&)>;
 
+/// Names of the formats that write_trajectory() writes.
+std::vector<std::string> written_formats();
+
 /// The format of `to`, or of the ending of `out`, or tum for folders and standard output. Throws
 /// OptionError, and InputError for another ending.
 Format written_format(const std::string& out, const std::string& to);
