@@ -18,16 +18,19 @@ using methods::LedgerRow;
 
 constexpr std::size_t kWidestName = 13;  // name of a closure in a row of 80 columns
 
-/// Numbers, words, or null without a prediction.
+struct LedgerJson {
+  Json operator()(std::monostate) const { return nullptr; }
+  Json operator()(LedgerStamp at) const { return at.stamp; }
+  template <class Value>
+  Json operator()(const Value& value) const {
+    return value;
+  }
+};
+
 Json row_json(const LoopsResult& result, std::size_t rank) {
   Json out;
   for (const auto& [name, value] : ledger_row(result, rank)) {
-    const Json number = Json::parse(value, nullptr, false);
-    if (value.empty()) {
-      out[name] = Json();
-    } else {
-      out[name] = number.is_discarded() ? Json(value) : number;
-    }
+    out[name] = std::visit(LedgerJson(), value);
   }
   return out;
 }

@@ -12,9 +12,8 @@ namespace {
 
 using methods::LedgerRow;
 
-/// `digits` digits; 0: the shortest that are read as the same number. Empty unless it is finite.
+/// `digits` digits; 0: the shortest that are read as the same number.
 std::string decimal(double value, int digits = 0) {
-  if (!std::isfinite(value)) return "";
   const std::string out =
       digits > 0 ? fmt::format("{:.{}g}", value, digits) : fmt::to_string(value);
   return out.find_first_not_of("-0123456789") == std::string::npos ? out + ".0" : out;
@@ -25,6 +24,28 @@ std::string keyframe_name(const Problem& problem, std::size_t keyframe) {
   if (!problem.ids.empty()) return id_text(problem.ids[keyframe]);
   return decimal(shown_stamp(problem.keyframes[keyframe].stamp));
 }
+
+/// The same as data: ids and stamps are numbers.
+LedgerValue keyframe_value(const Problem& problem, std::size_t keyframe) {
+  if (problem.ids.empty()) return LedgerStamp{shown_stamp(problem.keyframes[keyframe].stamp)};
+  const std::int64_t id = problem.ids[keyframe];
+  return is_symbol(id) ? LedgerValue(id_text(id)) : LedgerValue(id);
+}
+
+LedgerValue finite(double value) {
+  return std::isfinite(value) ? LedgerValue(value) : LedgerValue();
+}
+
+/// In CSV.
+struct LedgerText {
+  int digits = 0;
+
+  std::string operator()(std::monostate) const { return ""; }
+  std::string operator()(const std::string& name) const { return name; }
+  std::string operator()(std::int64_t number) const { return std::to_string(number); }
+  std::string operator()(LedgerStamp at) const { return decimal(at.stamp); }
+  std::string operator()(double number) const { return decimal(number, digits); }
+};
 
 }  // namespace
 
@@ -61,34 +82,34 @@ const char* judgement(const LoopsResult& result, std::size_t rank) {
   return "unchecked";
 }
 
-std::vector<std::pair<std::string, std::string>> ledger_row(const LoopsResult& result,
-                                                            std::size_t rank,
-                                                            int digits) {
+std::vector<std::pair<std::string, LedgerValue>> ledger_row(const LoopsResult& result,
+                                                            std::size_t rank) {
   const std::size_t closure = result.ledger.suspects[rank];
   const LedgerRow& row = result.ledger.rows[closure];
   const Edge& edge = result.problem.closures[closure];
-  const auto number = [&](double value) { return decimal(value, digits); };
-  std::vector<std::pair<std::string, std::string>> out{
-      {"from", keyframe_name(result.problem, edge.from)},
-      {"to", keyframe_name(result.problem, edge.to)},
-      {"place", std::to_string(row.place + 1)},
-      {"loop_m", row.loop_length ? number(*row.loop_length) : ""}};
+  const LedgerValue none;
+  std::vector<std::pair<std::string, LedgerValue>> out{
+      {"from", keyframe_value(result.problem, edge.from)},
+      {"to", keyframe_value(result.problem, edge.to)},
+      {"place", static_cast<std::int64_t>(row.place) + 1},
+      {"loop_m", row.loop_length ? finite(*row.loop_length) : none}};
   const auto add = [&](const std::string& prefix,
                        const std::optional<methods::ClosureError>& error) {
-    out.emplace_back(prefix + "_m", error ? number(error->metres) : "");
-    out.emplace_back(prefix + "_deg", error ? number(error->degrees) : "");
-    out.emplace_back(prefix + "_sd", error ? number(std::sqrt(error->chi2)) : "");
+    out.emplace_back(prefix + "_m", error ? finite(error->metres) : none);
+    out.emplace_back(prefix + "_deg", error ? finite(error->degrees) : none);
+    out.emplace_back(prefix + "_sd", error ? finite(std::sqrt(error->chi2)) : none);
   };
   add("odometry", row.in_odometry);
   add("others", row.predicted);
-  out.emplace_back("moves_rms_m", row.moves ? number(row.moves->rms) : "");
-  out.emplace_back("moves_max_m", row.moves ? number(row.moves->max) : "");
-  out.emplace_back("moves_max_at", row.moves ? keyframe_name(result.problem, row.moves->at) : "");
-  out.emplace_back("chi2_drop", number(row.cost_drop));
-  out.emplace_back("closure", std::to_string(closure));
+  out.emplace_back("moves_rms_m", row.moves ? finite(row.moves->rms) : none);
+  out.emplace_back("moves_max_m", row.moves ? finite(row.moves->max) : none);
+  out.emplace_back("moves_max_at",
+                   row.moves ? keyframe_value(result.problem, row.moves->at) : none);
+  out.emplace_back("chi2_drop", finite(row.cost_drop));
+  out.emplace_back("closure", static_cast<std::int64_t>(closure));
   out.emplace_back("judgement", judgement(result, rank));
-  out.emplace_back("others_solved", row.is_prediction_solved ? "1" : "0");
-  out.emplace_back("without_solved", row.is_drop_solved ? "1" : "0");
+  out.emplace_back("others_solved", std::int64_t{row.is_prediction_solved});
+  out.emplace_back("without_solved", std::int64_t{row.is_drop_solved});
   return out;
 }
 
@@ -96,9 +117,9 @@ std::string csv(const LoopsResult& result, int digits) {
   std::string header, lines;
   for (std::size_t rank = 0; rank < result.ledger.suspects.size(); ++rank) {
     std::string line;
-    for (const auto& [name, value] : ledger_row(result, rank, digits)) {
+    for (const auto& [name, value] : ledger_row(result, rank)) {
       if (rank == 0) header += (header.empty() ? "" : ",") + name;
-      line += (name == "from" ? "" : ",") + value;
+      line += (name == "from" ? "" : ",") + std::visit(LedgerText{digits}, value);
     }
     lines += line + "\n";
   }

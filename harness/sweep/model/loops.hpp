@@ -1,8 +1,10 @@
 /// What the loop closures of one trajectory or pose graph state about each other, in words.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
@@ -40,16 +42,23 @@ const char* judgement(const LoopsResult& result, std::size_t rank);
 /// "12 -> 13": the keyframes of a step of the odometry.
 std::string step_name(const Problem& problem, std::size_t from);
 
+/// The stamp of a keyframe without a name [s], of which every digit counts.
+struct LedgerStamp {
+  double stamp = 0.0;
+};
+
+/// A name, a number, or nothing: there is none, or it was not computed.
+using LedgerValue = std::variant<std::monostate, std::string, std::int64_t, LedgerStamp, double>;
+
 /// Names and values of the columns for the closure at a rank of `suspects`: lengths in metres,
 /// angles in degrees, `sd` in stated standard deviations, names of keyframes as in the file,
 /// `closure` the index in the problem; `others_solved` and `without_solved`: 1 if the numbers are
-/// those of a solution, 0 if they are linearised; empty: none, or not computed. Numbers have
-/// `digits` digits; 0: all.
-std::vector<std::pair<std::string, std::string>> ledger_row(const LoopsResult& result,
-                                                            std::size_t rank,
-                                                            int digits = 0);
+/// those of a solution, 0 if they are linearised. Numbers are finite.
+std::vector<std::pair<std::string, LedgerValue>> ledger_row(const LoopsResult& result,
+                                                            std::size_t rank);
 
-/// One line per closure in the order of `suspects`, with a header.
+/// One line per closure in the order of `suspects`, with a header. Numbers have `digits` digits; 0:
+/// all.
 std::string csv(const LoopsResult& result, int digits = 0);
 
 /// For the report of a sweep: the sentence, then the lines of csv(); only the reason if there is no
