@@ -141,7 +141,11 @@ struct Quantity {
   friend bool operator==(const Quantity&, const Quantity&) = default;
 };
 
-/// What removes the cause: an option with a value, "--offset" and "-0.0500", or words.
+/// The option of a Remedy that is a key of the config.
+inline constexpr const char* kConfigProtocol = "protocol";
+
+/// What removes the cause: an option with a value, "--offset" and "-0.0500"; a key of the config,
+/// kConfigProtocol and "{offset: -0.0500}"; or words.
 struct Remedy {
   std::string option = {};
   std::string value = {};

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/formats.hpp"
 
@@ -12,10 +10,7 @@ namespace {
 
 std::string remedy_text(const Note& note) {
   const auto& [option, value] = note.remedy;
-  const std::string_view place = kInProtocol;
-  if (option.starts_with(place)) {
-    return fmt::format("protocol: {{{}: {}}}", option.substr(place.size()), value);
-  }
+  if (option == kConfigProtocol) return fmt::format("{}: {}", option, value);
   return option + (value.empty() ? "" : " ") + value;
 }
 

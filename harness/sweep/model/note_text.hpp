@@ -8,9 +8,6 @@
 
 namespace loopbench::harness {
 
-/// Begins an option of the protocol in a config, in Remedy: "protocol.offset".
-inline constexpr const char* kInProtocol = "protocol.";
-
 /// One sentence without a full stop, with the subject and the remedy.
 std::string text(const Note& note);
 

@@ -210,8 +210,8 @@ std::vector<Note> doctor_notes(const Sequence& sequence, const Sweep& sweep) {
       sequence.reference, problem.keyframes, source.reference.string(), "", has_stamps};
   for (Note& note : notes_of(findings_of(pair, sweep.protocols))) {
     if (note.kind == NoteKind::time_offset)
-      note.remedy.option = kInProtocol + std::string("offset");
-    if (note.kind == NoteKind::scale) note.remedy = {kInProtocol + std::string("align"), "sim3"};
+      note.remedy = {kConfigProtocol, "{offset: " + note.remedy.value + "}"};
+    if (note.kind == NoteKind::scale) note.remedy = {kConfigProtocol, "{align: sim3}"};
     out.push_back(std::move(note));
   }
   return out;
