@@ -60,7 +60,8 @@ void set_intervals(std::vector<Table>& tables) {
     if (!table.averages) continue;
     Averages now = *table.averages;
     now.deviation = Deviation::half_interval;
-    std::ranges::replace(table.notes, averages_text(*table.averages), averages_text(now));
+    std::ranges::replace(
+        table.notes, TableNote(averages_text(*table.averages)), TableNote(averages_text(now)));
     table.averages = now;
   }
 }

@@ -143,7 +143,7 @@ TEST(Marks, AreOfOneScoreAndOneEntryOfAMethod) {
   std::vector<Record> records = two_methods(8);
   const Table several = table_of(records, {"method", "repeat"}, {"score"});
   EXPECT_EQ(marked_in_column(several, 1), Names{});
-  EXPECT_EQ(several.notes, std::vector<std::string>{});
+  EXPECT_EQ(note_texts(several), std::vector<std::string>{});
   for (Record& r : records) {
     if (r.cell->method == "second") r.kind.edit().relation = "rotation";
   }

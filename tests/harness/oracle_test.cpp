@@ -136,7 +136,8 @@ TEST(Oracle, RowsOfTablesAreMarked) {
   ASSERT_EQ(tables[0].lines.size(), 2u);
   EXPECT_EQ(tables[0].lines[0][0].text, "dm");
   EXPECT_EQ(tables[0].lines[1][0].text, "paper_oracle (oracle)");
-  EXPECT_EQ(tables[0].notes, std::vector<std::string>{"oracle: the method uses the reference"});
+  EXPECT_EQ(note_texts(tables[0]),
+            std::vector<std::string>{"oracle: the method uses the reference"});
 }
 
 TEST(Oracle, TheStoreKeepsTheFlag) {

@@ -233,7 +233,7 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   EXPECT_EQ(tables[0].lines[0][1].records, 1u);
   EXPECT_EQ(tables[0].lines[1][1].value, std::nullopt);
   EXPECT_EQ(tables[0].lines[1][1].status, "incomplete");
-  EXPECT_EQ(tables[0].notes,
+  EXPECT_EQ(note_texts(tables[0]),
             (std::vector<std::string>{"raw, worse: incomplete: evaluated 1 of 9 poses"}));
   EXPECT_NE(csv(records).find(",9,"), std::string::npos);  // the long table keeps the number
   EXPECT_TRUE(gains(records, "worse").empty());

@@ -84,7 +84,9 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
 
 /// So many rows and columns of numbers, with long headings.
 Table numbers(int rows, int columns) {
-  Table out{"wide", {"method"}, {}, {"a--b", "times: dense (others: --where times=...)"}};
+  Table out{"wide", {"method"}, {}, {}};
+  out.notes = {"a--b: failed (no --file)",
+               {"times: dense (others: --where times=...)", "times: dense"}};
   for (int column = 0; column < columns; ++column)
     out.headings.push_back("score " + std::to_string(column) + " [deg]");
   out.units.assign(out.headings.size(), "deg");
@@ -120,7 +122,7 @@ TEST(Formats, LatexIsOneTableThatIsTransposedIfItIsTooWide) {
 
 TEST(Formats, LatexHasNoOptionsOfTheCommandLine) {
   const std::string text = latex(numbers(3, 3));
-  EXPECT_EQ(occurrences(text, "a{-}{-}b\\par"), 1U) << text;
+  EXPECT_EQ(occurrences(text, "a{-}{-}b: failed (no {-}{-}file)\\par"), 1U) << text;  // no remark
   EXPECT_EQ(occurrences(text, "times: dense\\par"), 1U) << text;
   EXPECT_EQ(occurrences(text, "where"), 0U) << text;
 }
@@ -254,7 +256,8 @@ std::vector<Record> two_methods() {
 }
 
 TEST(Summary, MarksOracleClosures) {
-  const std::vector<std::string> notes = summary(two_methods(), {"raw", "rmse", {}}).front().notes;
+  const std::vector<std::string> notes =
+      note_texts(summary(two_methods(), {"raw", "rmse", {}}).front());
   EXPECT_EQ(std::ranges::count(
                 notes, "closures are oracle, measured in the reference or selected by it: room"),
             1);

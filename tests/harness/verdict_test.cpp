@@ -140,7 +140,7 @@ TEST(VerdictTable, StatesWhichCommandPrintsSequencesThatDoNotFit) {
   const Table table = verdict_table(v);
   ASSERT_EQ(table.headings.size(), 4u);
   EXPECT_EQ(table.headings.back(), std::string(50, 's'));  // -50 %, beside -40 % in the room
-  EXPECT_EQ(table.notes.back(), "1 sequence more: compare --format json");
+  EXPECT_EQ(table.notes.back().text, "1 sequence more: compare --format json");
 }
 
 TEST(VerdictSentence, OfTwoFilesHasTheirValues) {

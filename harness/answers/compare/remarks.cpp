@@ -92,7 +92,7 @@ Lines limitations(const Comparison& c) {
   return out;
 }
 
-Lines remarks(const Comparison& c) {
+Lines remarks(const Comparison& c, bool in_paper) {
   Lines out = limitations(c);
   if (c.methods.empty()) return out;
   out.push_back(fmt::format(
@@ -101,7 +101,8 @@ Lines remarks(const Comparison& c) {
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
       baseline_name(c)));
-  if (std::ranges::any_of(c.methods, &MethodVerdict::is_stated)) out.emplace_back(kStatedNote);
+  if (std::ranges::any_of(c.methods, &MethodVerdict::is_stated))
+    out.emplace_back(in_paper ? kStatedInPaper : kStatedNote);
   if (!c.can_show) return out;
   out.push_back(fmt::format(
       "p: {} against {}, corrected for {}",

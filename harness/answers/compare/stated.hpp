@@ -11,6 +11,7 @@ inline constexpr const char* kStatedMark = " (s)";
 /// Explains the mark.
 inline constexpr const char* kStatedNote =
     "(s): as the program states it, without its start; `report` has the wall time, too";
+inline constexpr const char* kStatedInPaper = "(s): as the program states it, without its start";
 
 /// Whether the value of a record is a time that a program states.
 inline bool is_stated(const Record& record) {

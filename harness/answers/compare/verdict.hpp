@@ -35,6 +35,7 @@ struct Verdict {
   std::vector<std::string> cautions;   ///< methods that are worse than the baseline somewhere
   std::vector<std::string> cautioned;  ///< sequences that they name: their columns are shown first
   std::string legend;                  ///< what the numbers are, and for what claims hold
+  std::string legend_in_paper;         ///< without options of the command line
   double level = 95.0;                 ///< of the intervals [%]
 
   /// Whether the groups show more than the sentence.
@@ -112,7 +113,7 @@ std::string coverage_text(const Comparison& comparison, bool of_first);
 /// Properties of the data that limit the claims: copies, gaps, coverage, oracles.
 std::vector<std::string> limitations(const Comparison& comparison);
 
-/// The limitations, and what the numbers of each method are.
-std::vector<std::string> remarks(const Comparison& comparison);
+/// The limitations, and what the numbers of each method are. `in_paper`: without commands.
+std::vector<std::string> remarks(const Comparison& comparison, bool in_paper = false);
 
 }  // namespace loopbench::harness

@@ -13,7 +13,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-std::string legend_of(const Comparison& c, const Verdict& v) {
+/// Sets the legends.
+void add_legend(const Comparison& c, Verdict& v) {
   std::string out = "change: ";
   if (c.kind.better == metrics::Better::target) {
     out += fmt::format("of |value - {:g}| ", c.kind.target);
@@ -33,15 +34,21 @@ std::string legend_of(const Comparison& c, const Verdict& v) {
     out += fmt::format("; =: shares first place, >: shown to be worse, typically by {:g} % or more",
                        100.0 * c.options.relevant);
   }
+  v.legend = v.legend_in_paper = out;
+  const auto add = [&](const std::string& text, const std::string& paper) {
+    v.legend += text;
+    v.legend_in_paper += paper;
+  };
   if (std::ranges::any_of(c.methods, &MethodVerdict::is_stated))
-    out += std::string("; ") + kStatedNote;
-  if (c.kind.times == "dense") out += "; dense: also between keyframes";
+    add(std::string("; ") + kStatedNote, std::string("; ") + kStatedInPaper);
+  const std::string dense = c.kind.times == "dense" ? "; dense: also between keyframes" : "";
+  add(dense, dense);
   if (c.is_independent) {
-    out += "; runs of a sequence count as independent (compare --paired pairs equal names)";
+    const std::string independent = "; runs of a sequence count as independent";
+    add(independent + " (compare --paired pairs equal names)", independent);
   } else if (c.sequences < c.groups) {
-    out += "; for claims about other sequences: --over sequences";
+    add("; for claims about other sequences: --over sequences", "");
   }
-  return out;
 }
 
 /// The sequences with a change, at most so many: those of cautions, then those with the largest.
@@ -104,7 +111,7 @@ Verdict verdict_of(const Comparison& c, const std::vector<Comparison>& all) {
   out.has_places = c.can_show;
   out.groups = groups_of(c, out.sequences);
   out.level = 100.0 * (1.0 - c.options.alpha);
-  out.legend = legend_of(c, out);
+  add_legend(c, out);
   return out;
 }
 

@@ -39,7 +39,7 @@ std::string lines_of(const Table& table) {
 }
 
 std::string figure(const Table& all, const std::string& attributes) {
-  if (all.headings.empty()) return notes_list(all.notes);
+  if (all.headings.empty()) return notes_list(note_texts(all));
   const Table table = without_empty_columns(all);
   const std::string title = html_text(table.title);
   std::string out = "<figure " + attributes +
@@ -49,7 +49,7 @@ std::string figure(const Table& all, const std::string& attributes) {
     out += "<th scope=\"col\">" + html_text(heading) + "</th>";
   }
   return out + "</tr></thead><tbody>\n" + lines_of(table) + "</tbody></table></div>" +
-         notes_list(table.notes) + "</figure>\n";
+         notes_list(note_texts(table)) + "</figure>\n";
 }
 
 }  // namespace

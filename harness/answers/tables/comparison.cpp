@@ -76,7 +76,7 @@ void drop_sequences(Table& table, const Verdict& verdict, std::size_t most) {
     for (auto& line : table.lines) line.erase(line.begin() + column);
   }
   if (dropped > 0)
-    table.notes.push_back(counted(dropped, "sequence") + " more: compare --format json");
+    table.notes.emplace_back(counted(dropped, "sequence") + " more: compare --format json", "");
 }
 
 Json change_json(const std::optional<Change>& change) {
@@ -175,7 +175,7 @@ Table verdict_table(const Verdict& verdict, std::size_t width) {
     }
   }
   for (const std::string& caution : verdict.cautions) out.notes.push_back("! " + caution);
-  if (!verdict.legend.empty()) out.notes.push_back(verdict.legend);
+  if (!verdict.legend.empty()) out.notes.emplace_back(verdict.legend, verdict.legend_in_paper);
   if (width > 0) drop_sequences(out, verdict, width);
   return out;
 }
@@ -190,7 +190,11 @@ Table table_view(const Comparison& c) {
              "better/worse",
              "p"},
             {},
-            remarks(c)};
+            {}};
+  const std::vector<std::string> in_paper = remarks(c, true);
+  for (const std::string& each : remarks(c)) {
+    out.notes.emplace_back(each, in_paper[out.notes.size()]);
+  }
   double largest = 0.0;
   for (const MethodVerdict& m : c.methods) largest = std::max(largest, std::abs(m.median));
   std::vector<VerdictGroup> groups;

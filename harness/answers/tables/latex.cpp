@@ -111,7 +111,8 @@ Table transposed(const Table& table) {
   }
   if (!table.marks) return out;
   out.marks->is_of_columns = !table.marks->is_of_columns;
-  std::ranges::replace(out.notes, marks_text(*table.marks), marks_text(*out.marks));
+  std::ranges::replace(
+      out.notes, TableNote(marks_text(*table.marks)), TableNote(marks_text(*out.marks)));
   return out;
 }
 
@@ -136,43 +137,16 @@ void mark_equal_numbers(Table& table) {
     is_marked = true;
   }
   if (!is_marked) return;
-  const auto about_marks = std::ranges::find(table.notes, marks_text(*table.marks));
+  const auto about_marks = std::ranges::find(table.notes, TableNote(marks_text(*table.marks)));
   table.notes.insert(
       about_marks == table.notes.end() ? about_marks : about_marks + 1,
       std::string(kDagger) + ": shown to be worse than an equally printed bold number");
 }
 
-bool names_option(const std::string& text) {
-  for (std::size_t at = 0; (at = text.find("--", at)) != std::string::npos; at += 2) {
-    const bool begins = at == 0 || text[at - 1] == ' ' || text[at - 1] == '(';
-    if (begins && at + 2 < text.size() && std::isalpha(static_cast<unsigned char>(text[at + 2])))
-      return true;
-  }
-  return false;
-}
-
-/// Without parentheses and clauses that name an option or a command, which a paper does not have.
-std::string without_options(std::string note) {
-  for (std::size_t open = 0; (open = note.find('(', open)) != std::string::npos;) {
-    const std::size_t close = note.find(')', open);
-    if (close == std::string::npos) break;
-    if (!names_option(note.substr(open, close - open))) {
-      open = close;
-      continue;
-    }
-    if (open > 0 && note[open - 1] == ' ') --open;
-    note.erase(open, close + 1 - open);
-  }
-  std::string out;
-  for (std::size_t begin = 0; begin <= note.size();) {
-    const std::size_t end = std::min(note.find("; ", begin), note.size());
-    const std::string clause = note.substr(begin, end - begin);
-    if (!names_option(clause) && !clause.starts_with('`')) {
-      out += (out.empty() ? "" : "; ") + clause;
-    }
-    begin = end + 2;
-  }
-  return out;
+/// The notes of a paper.
+void keep_notes_of_papers(Table& table) {
+  for (TableNote& note : table.notes) note = one_line(note.in_paper.value_or(note.text));
+  std::erase(table.notes, TableNote());
 }
 
 struct PaperLayout {
@@ -207,8 +181,7 @@ PaperLayout layout_of(const Table& table, bool wide) {
 
 std::string latex(const Table& all, const LatexOptions& options) {
   Table table = with_common_unit(without_empty_columns(all));
-  for (std::string& note : table.notes) note = without_options(one_line(note));
-  std::erase(table.notes, "");
+  keep_notes_of_papers(table);
   mark_equal_numbers(table);
   const char* const separator = table.title.empty() || table.facts.empty() ? "" : "; ";
   const std::string stated = table.title + separator + table.facts;
@@ -220,7 +193,7 @@ std::string latex(const Table& all, const LatexOptions& options) {
   }
   const auto notes_of = [](const Table& from) {
     std::string out;
-    for (const std::string& note : from.notes) out += breakable(note) + "\\par\n";
+    for (const TableNote& note : from.notes) out += breakable(note.text) + "\\par\n";
     return out;
   };
   if (table.headings.empty()) {

@@ -82,7 +82,7 @@ std::string markdown(const Table& all) {
   if (!table.title.empty()) out += "### " + escaped_markdown(table.title) + "\n\n";
   if (!table.headings.empty()) out += grid_text(table);
   if (!table.headings.empty() && !table.notes.empty()) out += "\n";
-  for (const std::string& note : table.notes) {
+  for (const std::string& note : note_texts(table)) {
     const char* indent = "- ";
     for (const std::string& line : wrapped(escaped_markdown(note), table.note_width)) {
       const bool is_mark = line.starts_with("+ ") || line.starts_with("- ") ||

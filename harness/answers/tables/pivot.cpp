@@ -99,7 +99,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   }
   if (is_stated(record)) {
     entry.is_stated = true;
-    table.note(kStatedNote);
+    table.note({kStatedNote, kStatedInPaper});
   }
   entry.is_gap = record.kind->metric == "optimality" && record.kind->relation == "gap" &&
                  spec.value != "count";

@@ -113,7 +113,7 @@ std::string keep_with_options(std::vector<Record>& records, const TableSpec& spe
 /// contains. Keeps dense times (without any: the first) if the layout does not separate times;
 /// makes methods the columns if the layout does not contain them, and then keeps the first shown
 /// score. Returns a note about what is shown; empty if nothing was selected. O(n).
-std::string complete_layout(std::vector<Record>& records, TableSpec& spec) {
+TableNote complete_layout(std::vector<Record>& records, TableSpec& spec) {
   std::string score;
   const std::string without = keep_with_options(records, spec);
   if (!separates(spec, {"method"})) {
@@ -123,11 +123,15 @@ std::string complete_layout(std::vector<Record>& records, TableSpec& spec) {
     if (!separates(spec, {"score", "metric", "label"})) score = keep_one_score(records, spec.show);
   }
   const std::string times = separates(spec, {"times"}) ? "" : keep_one_time(records);
-  std::string out;
-  if (!score.empty()) out = "score: " + score + " (others: --show)";
-  if (!times.empty())
-    out += (out.empty() ? "" : "; ") + ("times: " + times) + " (others: --where times=...)";
-  if (!without.empty()) out += (out.empty() ? "" : "; ") + ("left out, without option: " + without);
+  TableNote out("", "");
+  const auto add = [&out](const std::string& what, const std::string& option) {
+    const char* const separator = out.text.empty() ? "" : "; ";
+    out.text += separator + what + option;
+    *out.in_paper += separator + what;
+  };
+  if (!score.empty()) add("score: " + score, " (others: --show)");
+  if (!times.empty()) add("times: " + times, " (others: --where times=...)");
+  if (!without.empty()) add("left out, without option: " + without, "");
   return out;
 }
 
@@ -257,10 +261,10 @@ std::vector<Table> store_tables(const std::filesystem::path& store,
   std::vector<Record> records = all_records(store, asked_by(spec, rules));
   keep_where(records, rules);
   if (records.empty()) reject_empty(store, rules);
-  const std::string note = complete_layout(records, spec);
+  const TableNote note = complete_layout(records, spec);
   std::vector<Table> tables = pivot(records, spec);
   for (Table& table : tables) {
-    if (!note.empty()) table.notes.insert(table.notes.begin(), note);
+    if (!note.text.empty()) table.notes.insert(table.notes.begin(), note);
   }
   return tables;
 }

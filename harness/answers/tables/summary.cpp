@@ -143,7 +143,7 @@ std::vector<Table> summary(const std::vector<Record>& records,
     out.push_back(verdict_table(verdict_of(all.front(), all)));
   }
   if (std::ranges::any_of(own, [](const Record& r) { return r.cell->is_stated(); }))
-    table.notes.emplace_back(kStatedNote);
+    table.notes.emplace_back(kStatedNote, kStatedInPaper);
   if (table.lines.size() > kMostMethods) {
     table.notes.push_back("and " + counted(table.lines.size() - kMostMethods, "more method"));
     table.lines.resize(kMostMethods);

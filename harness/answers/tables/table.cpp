@@ -137,6 +137,12 @@ std::string padded(const std::string& text, std::size_t columns, bool left) {
   return left ? text + gap : gap + text;
 }
 
+std::vector<std::string> note_texts(const Table& table) {
+  std::vector<std::string> out;
+  for (const TableNote& note : table.notes) out.push_back(note.text);
+  return out;
+}
+
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace loopbench::harness {
@@ -55,12 +56,27 @@ struct Averages {
 /// The note about them: "each number is the mean of up to 6 cells".
 std::string averages_text(const Averages& averages);
 
+/// A line below a table.
+struct TableNote {
+  TableNote() = default;
+  template <std::convertible_to<std::string> Text>
+  TableNote(const Text& own_text) : text(own_text) {}  // NOLINT(google-explicit-constructor)
+  TableNote(std::string own_text, std::string paper)
+      : text(std::move(own_text)), in_paper(std::move(paper)) {}
+
+  std::string text;
+  /// Instead of `text` in papers, which have no command line: without options; "": left out.
+  std::optional<std::string> in_paper = {};
+
+  friend bool operator==(const TableNote&, const TableNote&) = default;
+};
+
 /// The first column has the row names and is left-aligned; the others are right-aligned.
 struct Table {
   std::string title;
   std::vector<std::string> headings;          ///< with units, as " [m]"
   std::vector<std::vector<TableCell>> lines;  ///< [row][column]
-  std::vector<std::string> notes;             ///< one per line, below the table
+  std::vector<TableNote> notes;               ///< one per line, below the table
   std::vector<std::string> above = {};        ///< what can change a conclusion, above the title
   std::string facts = {};  ///< for captions of papers: statistic, times, alignment, number of runs
   std::size_t note_width = 0;             ///< of the notes in Markdown; 0: one line each
@@ -69,6 +85,9 @@ struct Table {
   std::optional<BestMarks> marks = {};    ///< of the note about them
   std::optional<Averages> averages = {};  ///< likewise
 };
+
+/// The texts of its notes, for all formats but papers.
+std::vector<std::string> note_texts(const Table& table);
 
 /// Properties of the terminal that a table is printed on.
 struct TerminalStyle {
@@ -118,12 +137,12 @@ struct LatexOptions {
   std::string label = {};    ///< for \ref; empty: none
 };
 
-/// A float with a caption and the notes below, without remarks on options of the command line. A
-/// table that is too wide is transposed, or else as wide as the text, or else both; the first that
-/// fits. If none does, it is scaled down to at least three quarters, or divided into several parts
-/// that each repeat the row names. Best in bold; numbers that are printed equal to a best one of
-/// their column or row, but are shown to be worse, have a dagger. Escaped; needs
-/// \usepackage{booktabs,graphicx} and UTF-8.
+/// A float with a caption and the notes below, as TableNote::in_paper has them. A table that is too
+/// wide is transposed, or else as wide as the text, or else both; the first that fits. If none
+/// does, it is scaled down to at least three quarters, or divided into several parts that each
+/// repeat the row names. Best in bold; numbers that are printed equal to a best one of their column
+/// or row, but are shown to be worse, have a dagger. Escaped; needs \usepackage{booktabs,graphicx}
+/// and UTF-8.
 std::string latex(const Table& table, const LatexOptions& options = {});
 
 /// The means, one line each (RFC 4180), in full precision, or the texts of cells without one;

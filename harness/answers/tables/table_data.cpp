@@ -68,7 +68,7 @@ std::string json(const std::vector<Table>& tables) {
                    {"row_names", table.headings[0]},
                    {"columns", std::vector(table.headings.begin() + 1, table.headings.end())},
                    {"rows", std::move(rows)},
-                   {"notes", table.notes},
+                   {"notes", note_texts(table)},
                    {"above", table.above},
                    {"cells", std::move(cells)}});
   }

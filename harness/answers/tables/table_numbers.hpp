@@ -74,8 +74,8 @@ struct PlacedRecord {
 
 /// Contents of a table under construction.
 struct TableNumbers {
-  void note(const std::string& text) {
-    if (std::ranges::count(notes, text) == 0) notes.push_back(text);
+  void note(const TableNote& line) {
+    if (std::ranges::count(notes, line) == 0) notes.push_back(line);
   }
 
   NameOrder rows;
@@ -94,7 +94,7 @@ struct TableNumbers {
   std::map<std::size_t, std::string> row_status;  // status of runs without any score
   std::set<std::string> oracle_sequences;  // closures measured in or selected by the reference
   std::vector<Missing> missing;
-  std::vector<std::string> notes;
+  std::vector<TableNote> notes;
 };
 
 /// The texts of the fields that are not empty.

@@ -158,7 +158,7 @@ std::string terminal(const Table& all, const TerminalStyle& style) {
   for (std::size_t b = 0; b < parts.size(); ++b) {
     out += (b == 0 ? "" : "\n") + block_text(columns, parts[b], style.color);
   }
-  for (const std::string& note : table.notes) {
+  for (const std::string& note : note_texts(table)) {
     const Lines lines =
         wrapped(one_line(note), style.width == 0 ? 0 : std::max<std::size_t>(20, style.width - 2));
     for (std::size_t l = 0; l < lines.size(); ++l) add_line(out, (l == 0 ? "" : "  ") + lines[l]);

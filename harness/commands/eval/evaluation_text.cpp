@@ -100,7 +100,8 @@ Table scores_view(const EvaluationResult& result, std::optional<int> digits) {
     }
     line.push_back({std::to_string(s.count)});
   }
-  out.notes = grouped(missing_scores(result, ""));
+  const std::vector<std::string> missing = grouped(missing_scores(result, ""));
+  out.notes.assign(missing.begin(), missing.end());
   return out;
 }
 
@@ -254,7 +255,8 @@ std::string text(const EvaluationResult& result,
     Table summary = comparison({row}, detail).front();
     summary.title.clear();
     summary.above.clear();
-    summary.notes = grouped(missing_scores(row, ""));
+    const std::vector<std::string> missing = grouped(missing_scores(row, ""));
+    summary.notes.assign(missing.begin(), missing.end());
     return out + "\n" + terminal(summary, {style ? columns : 80, style && style->color});
   }
   const std::string scores = terminal(scores_view(result, 6));
