@@ -49,15 +49,21 @@ TEST(Growth, HasIntervalsThatHoldWithAFixedCost) {
   EXPECT_GE(held, 0.94 * 300);
 }
 
-TEST(Growth, ReadsFamiliesFromOptionsNotFromLabels) {
-  const std::vector<OptionFamily> found =
-      option_families({{"small", "simulated: path=room, keyframes=60"},
-                       {"large", "simulated: path=room, keyframes=240"},
-                       {"road 60", "simulated: path=driving, keyframes=60"},
-                       {"sparse", "simulated: path=room, laps=3"},
-                       {"raw", "raw"}});
+TEST(Growth, FindsFamiliesByOptionsNotByLabels) {
+  const auto room = [](std::int64_t keyframes) {
+    return std::vector<Choice>{
+        {"simulated", {{"path", std::string("room")}, {"keyframes", keyframes}}}};
+  };
+  const std::vector<OptionFamily> found = option_families(
+      {{"small", room(60)},
+       {"large", room(240)},
+       {"road 60",
+        std::vector<Choice>{
+            {"simulated", {{"path", std::string("driving")}, {"keyframes", std::int64_t{60}}}}}},
+       {"a text", std::vector<Choice>{{"simulated", {{"path", std::string("room, keyframes=9")}}}}},
+       {"raw", std::vector<Choice>{{"raw", {}}}}});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].name, "simulated, room");
+  EXPECT_EQ(found[0].name_with_words(), "simulated, room");
   EXPECT_EQ(found[0].options, std::vector<std::string>{"keyframes"});
   ASSERT_EQ(found[0].members.size(), 2u);
   EXPECT_EQ(found[0].members[1].name, "large");

@@ -132,6 +132,35 @@ TEST_F(StoreTest, KeepsHowAMethodCutUpTheWayAndAllThatADatasetIs) {
   EXPECT_EQ(read_dataset_options(file_).at("b"), "line: bias=0.2, seed=1");
 }
 
+/// A polyline with an option whose value is a text.
+struct Named final : Smoother {
+  struct Options {
+    std::string words = "none";
+  };
+  explicit Named(const Options&) {}
+  std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {
+    return std::make_unique<Polyline>(problem.keyframes);
+  }
+};
+template <class Visit>
+void fields(Named::Options& o, Visit visit) {
+  visit("words", o.words, "unused");
+}
+
+TEST_F(StoreTest, OptionsOfMethodsAreDataNotParsedFromTheirText) {
+  known_.methods.push_back(method<Named>("named", "a polyline"));
+  run(config("straight, {method: named, words: 'a, other=7; + b', label: n}"));
+  const std::vector<Record> records = read_records(file_);
+  const auto named =
+      std::ranges::find_if(records, [](const Record& r) { return r.cell->method.text() == "n"; });
+  ASSERT_NE(named, records.end());
+  EXPECT_EQ(field(*named, "words"), "a, other=7; + b");
+  EXPECT_FALSE(has_field(*named, "other"));
+  EXPECT_TRUE(has_field(records.front(), "by"));
+  EXPECT_EQ(field(records.front(), "by"), "0.0");
+  EXPECT_EQ(read_cells(file_).front().dataset->front(), (Choice{"line", {{"bias", 0.1}}}));
+}
+
 TEST_F(StoreTest, ChangedBytesOfAnInputRunItsCells) {
   folder_.file("x/bias", "0.1");
   folder_.file("bias2", "0.1");

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 #include "datasets/core/error.hpp"
 #include "harness/answers/compare/derived.hpp"
@@ -110,16 +109,6 @@ std::vector<std::string> default_methods(const ReportContent& content) {
     if (m.method == headline->options.baseline || (is_chain && out.size() > 1)) continue;
     add(m.method);
     if (!chains.empty() && !is_chain) break;
-  }
-  return out;
-}
-
-std::vector<std::pair<std::string, std::string>> method_definitions(const ReportContent& content) {
-  std::vector<std::pair<std::string, std::string>> out;
-  std::istringstream lines(content.run_value("methods"));
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t tab = line.find('\t');
-    if (tab != std::string::npos) out.emplace_back(line.substr(0, tab), line.substr(tab + 1));
   }
   return out;
 }

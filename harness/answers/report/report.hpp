@@ -67,10 +67,6 @@ ReportContent read_report_content(const std::filesystem::path& store,
 /// sweep.
 std::vector<std::string> default_methods(const ReportContent& content);
 
-/// Labels of the methods with all their options as stores have them, "dual, use=all; + dm,
-/// planar=3".
-std::vector<std::pair<std::string, std::string>> method_definitions(const ReportContent& content);
-
 /// All methods, the baseline first, then in the order of the sweep; if there are more methods than
 /// colours, default_methods() first. Their indices determine their styles (curve_style()) in `plot`
 /// and in the report.

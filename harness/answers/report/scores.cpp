@@ -23,7 +23,9 @@ nlohmann::json statistics_json(const metrics::Statistics& s) {
 using Places = std::map<std::string, std::size_t>;
 
 /// [{name, options, members}]: families of entries; a member is its place, then the values.
-nlohmann::json families_json(const std::vector<OptionFamily>& families, const Places& places) {
+nlohmann::json families_json(const std::vector<OptionFamily>& families,
+                             const Places& places,
+                             std::string (*name)(const OptionFamily&)) {
   nlohmann::json out = nlohmann::json::array();
   for (const OptionFamily& family : families) {
     nlohmann::json members = nlohmann::json::array();
@@ -33,7 +35,7 @@ nlohmann::json families_json(const std::vector<OptionFamily>& families, const Pl
       nlohmann::json& entry = members.emplace_back(nlohmann::json::array({place->second}));
       for (const double value : member.values) entry.push_back(value);
     }
-    out.push_back({{"name", family.name}, {"options", family.options}, {"members", members}});
+    out.push_back({{"name", name(family)}, {"options", family.options}, {"members", members}});
   }
   return out;
 }
@@ -121,8 +123,14 @@ nlohmann::json scores_json(const ReportContent& content) {
           {"baseline", content.run_value("baseline")},
           {"statistics", {"rmse", "mean", "median", "max"}},
           {"kinds", std::move(kinds)},
-          {"sequence_families", families_json(sequence_families(content.shown_cells), sequence)},
-          {"method_families", families_json(option_families(method_definitions(content)), method)},
+          {"sequence_families",
+           families_json(sequence_families(content.shown_cells),
+                         sequence,
+                         [](const OptionFamily& family) { return family.name_with_words(); })},
+          {"method_families",
+           families_json(method_families(content.cells),
+                         method,
+                         [](const OptionFamily& family) { return family.name; })},
           {"growth", growth_json(content, method)},
           {"cells", std::move(cells)}};
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -14,66 +13,44 @@
 namespace loopbench::harness {
 namespace {
 
-std::optional<double> number_in(const std::string& text) {
-  double out = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, out);
-  return error == std::errc() && rest == end ? std::optional(out) : std::nullopt;
+std::optional<double> number_in(const Param& value) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  const double* const number = std::get_if<double>(&value);
+  return number == nullptr ? std::nullopt : std::optional(*number);
 }
 
-/// An option of an entry: its name and value.
-using NamedOption = std::pair<std::string, std::string>;
-
-/// The options in "simulated: keyframes=60, path=room; b: c=1", and the rest of the text.
-std::pair<std::vector<NamedOption>, std::string> entries_of(const std::string& text) {
-  std::pair<std::vector<NamedOption>, std::string> out;
-  const auto is_letter = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
-  };
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t equals = text.find('=', at);
-    if (equals == std::string::npos) {
-      out.second += text.substr(at);
-      break;
-    }
-    std::size_t name = equals;
-    while (name > at && is_letter(text[name - 1])) --name;
-    const std::size_t end = std::min(text.find_first_of(",;", equals), text.size());
-    out.second += text.substr(at, name - at);
-    out.first.emplace_back(text.substr(name, equals - name),
-                           text.substr(equals + 1, end - equals - 1));
-    at = end;
-  }
-  return out;
-}
-
-/// An entry with its numbers, and the family that it could belong to.
+/// An entry with its numbers, and what it shares with others of its family.
 struct Entered {
-  std::string label, family;
-  std::vector<std::string> names;
+  std::string label, name;
+  std::vector<std::string> words;  ///< texts of options
+  std::vector<std::string> names;  ///< of numbers
   std::vector<double> numbers;
+  std::string key;  ///< equal within a family
 };
 
-Entered entered(const std::string& label, const std::string& text) {
-  Entered out{label, "", {}, {}};
-  const auto [entries, rest] = entries_of(text);
-  out.family = rest.substr(0, rest.find(':'));
-  std::string key = rest;
-  for (const auto& [name, value] : entries) {
-    const auto number = number_in(value);
-    key += "\n" + name + (number ? "" : "=" + value);
-    if (!number) out.family += ", " + value;
-    if (!number) continue;
-    out.names.push_back(name);
-    out.numbers.push_back(*number);
+Entered entered(const std::string& label, const std::vector<Choice>& stages) {
+  Entered out{label, "", {}, {}, {}, ""};
+  for (const Choice& stage : stages) {
+    out.name += (out.name.empty() ? "" : " + ") + stage.name;
+    out.key += "\n\n" + stage.name;
+    for (const auto& [name, value] : stage.options) {
+      const auto number = number_in(value);
+      out.key += "\n" + name + (number ? "" : "=" + to_text(value));
+      if (number) {
+        out.names.push_back(name);
+        out.numbers.push_back(*number);
+      } else {
+        out.words.push_back(to_text(value));
+      }
+    }
   }
-  out.family += "\n" + key;
   return out;
 }
 
 OptionFamily family_of(const std::vector<const Entered*>& all) {
   OptionFamily out;
-  out.name = all.front()->family.substr(0, all.front()->family.find('\n'));
+  out.name = all.front()->name;
+  out.words = all.front()->words;
   std::vector<std::size_t> varying;
   for (std::size_t i = 0; i < all.front()->names.size(); ++i) {
     const auto differs = [&](const Entered* e) { return e->numbers[i] != all.front()->numbers[i]; };
@@ -96,7 +73,7 @@ Growth growth_of(const OptionFamily& family,
                  const std::string& method,
                  std::int64_t CellRow::*size,
                  const CellsOf& cells) {
-  Growth out{family.name,
+  Growth out{family.name_with_words(),
              size == &CellRow::keyframes ? "keyframes" : "closures",
              method,
              {},
@@ -131,23 +108,37 @@ Growth growth_of(const OptionFamily& family,
 
 }  // namespace
 
+std::string OptionFamily::name_with_words() const {
+  std::string out = name;
+  for (const std::string& word : words) out += ", " + word;
+  return out;
+}
+
 std::vector<OptionFamily> sequence_families(const std::vector<CellRow>& cells) {
-  std::vector<std::pair<std::string, std::string>> all;
+  std::vector<LabelledStages> all;
   std::set<SharedText> seen;
   for (const CellRow& cell : cells) {
-    if (seen.insert(cell.sequence).second) all.emplace_back(cell.sequence, cell.dataset_options);
+    if (seen.insert(cell.sequence).second) all.emplace_back(cell.sequence, cell.dataset);
   }
   return option_families(all);
 }
 
-std::vector<OptionFamily> option_families(
-    const std::vector<std::pair<std::string, std::string>>& options_of_labels) {
+std::vector<OptionFamily> method_families(const std::vector<CellRow>& cells) {
+  std::vector<LabelledStages> all;
+  std::set<SharedText> seen;
+  for (const CellRow& cell : cells) {
+    if (seen.insert(cell.method).second) all.emplace_back(cell.method, cell.stages);
+  }
+  return option_families(all);
+}
+
+std::vector<OptionFamily> option_families(const std::vector<LabelledStages>& labelled) {
   std::vector<Entered> all;
-  for (const auto& [label, options] : options_of_labels) all.push_back(entered(label, options));
+  for (const auto& [label, stages] : labelled) all.push_back(entered(label, *stages));
   NameOrder keys;
   std::vector<std::vector<const Entered*>> groups;
   for (const Entered& each : all) {
-    const std::size_t index = keys.index(each.family);
+    const std::size_t index = keys.index(each.key);
     groups.resize(keys.names().size());
     groups[index].push_back(&each);
   }

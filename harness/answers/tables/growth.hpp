@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/answers/tables/power_law.hpp"
@@ -16,18 +17,24 @@ struct OptionFamily {
     std::string name;            ///< label of the entry
     std::vector<double> values;  ///< of `options`
   };
-  std::string name;                  ///< catalogue names, and the options with a text
+  std::string name;                  ///< catalogue names: "dual + dm"
+  std::vector<std::string> words;    ///< texts of options
   std::vector<std::string> options;  ///< that differ: "keyframes"
   std::vector<Member> members;       ///< at least two
+
+  /// "simulated, room".
+  std::string name_with_words() const;
 };
 
-/// The families of labels with options as stores have them, "dual; dm: turn_max=0.1, window=4".
-/// Labels with other names of options are of other families. O(n log n).
-std::vector<OptionFamily> option_families(
-    const std::vector<std::pair<std::string, std::string>>& options_of_labels);
+/// A label with what the store has about its dataset or method, see CellRow.
+using LabelledStages = std::pair<std::string, Shared<std::vector<Choice>>>;
 
-/// Those of the sequences of these cells.
+/// The families of labels. Labels with other names of options are of other families. O(n log n).
+std::vector<OptionFamily> option_families(const std::vector<LabelledStages>& labelled);
+
+/// Those of the sequences and of the methods of these cells.
 std::vector<OptionFamily> sequence_families(const std::vector<CellRow>& cells);
+std::vector<OptionFamily> method_families(const std::vector<CellRow>& cells);
 
 /// Costs of a method on sequences that differ in size: medians over the repeats of each sequence.
 struct Growth {

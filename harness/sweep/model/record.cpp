@@ -36,13 +36,13 @@ std::string ScoreKind::name() const {
 
 namespace {
 
-/// The value in "dual, use=all; + dm, planar=3, spatial=0".
+/// The value of the first stage of the method that has the option.
 std::optional<std::string> option_of(const CellRow& cell, const std::string& name) {
-  const std::string& all = cell.all_method_options;
-  const std::size_t at = all.find(" " + name + "=");
-  if (at == std::string::npos) return std::nullopt;
-  const std::size_t begin = at + name.size() + 2;
-  return all.substr(begin, std::min(all.find(", ", begin), all.find("; + ", begin)) - begin);
+  for (const Choice& stage : *cell.stages) {
+    const auto found = stage.options.find(name);
+    if (found != stage.options.end()) return to_text(found->second);
+  }
+  return std::nullopt;
 }
 
 const RecordColumn* column_named(const std::string& name) {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "harness/sweep/model/choice.hpp"
 #include "harness/sweep/model/method_parts.hpp"
 #include "harness/sweep/model/note.hpp"
 #include "harness/sweep/model/run_group.hpp"
@@ -40,7 +41,10 @@ struct CellRow : MeasuredFacts {
   MethodParts parts;
   SharedText dataset_options;
   SharedText method_options;
-  SharedText all_method_options;  ///< with the defaults, of a cell that was read from a store
+  /// Of a cell that was read from a store: its dataset with the options that the config sets (one
+  /// entry), and the stages of its method with all options.
+  Shared<std::vector<Choice>> dataset;
+  Shared<std::vector<Choice>> stages;
   SharedText closures;
   bool oracle_closures = false;
   bool oracle = false;  ///< the method has access to the reference

@@ -8,16 +8,11 @@
 #include <vector>
 
 #include "datasets/core/params.hpp"
+#include "harness/sweep/model/choice.hpp"
 #include "harness/sweep/model/method_parts.hpp"
 #include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {
-
-/// A catalogue name and the options that differ from its defaults.
-struct Choice {
-  std::string name;
-  Params options;
-};
 
 struct DatasetChoice {
   std::string label;  ///< name, plus the swept options

@@ -9,10 +9,10 @@
 namespace loopbench::harness {
 namespace {
 
-/// "NAME, a=1, b=2" with all options.
-std::string named_options(const Choice& choice, const std::vector<OptionInfo>& options) {
-  const std::string text = to_text(in_full(options, choice.options));
-  return choice.name + (text.empty() ? "" : ", ") + text;
+/// "NAME, a=1, b=2".
+std::string text_of(const Choice& choice) {
+  const std::string options = to_text(choice.options);
+  return choice.name + (options.empty() ? "" : ", ") + options;
 }
 
 std::string hashed(const Params& params) {
@@ -96,11 +96,20 @@ std::string CellKeys::dataset_text(const Cell& cell) const {
          (choice.align ? ", protocol.align=" + to_text(*choice.align) : "");
 }
 
+std::vector<Choice> CellKeys::stages_in_full(const MethodChoice& method) const {
+  std::vector<Choice> out = method.stages;
+  for (Choice& stage : out) {
+    stage.options = in_full(find_method(catalogue_, stage.name).options, stage.options);
+  }
+  return out;
+}
+
 std::string CellKeys::metric_definitions() const {
   std::string out;
   for (const MetricChoice& metric : sweep_.metrics) {
     const metrics::MetricEntry& entry = find_metric(catalogue_, metric.metric.name);
-    out += metric.label + "\t" + named_options(metric.metric, entry.options) + "\n";
+    const Params options = in_full(entry.options, metric.metric.options);
+    out += metric.label + "\t" + text_of({metric.metric.name, options}) + "\n";
   }
   return out;
 }
@@ -109,9 +118,8 @@ std::string CellKeys::method_definitions() const {
   std::string out;
   for (const MethodChoice& method : sweep_.methods) {
     std::string stages;
-    for (const Choice& stage : method.stages) {
-      stages += (stages.empty() ? "" : "; + ") +
-                named_options(stage, find_method(catalogue_, stage.name).options);
+    for (const Choice& stage : stages_in_full(method)) {
+      stages += (stages.empty() ? "" : "; + ") + text_of(stage);
     }
     out += method.label + "\t" + stages + "\n";
   }

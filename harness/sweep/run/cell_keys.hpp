@@ -29,6 +29,9 @@ class CellKeys {
   /// The same as text: "simulated: closures.angle=30.0, ..." with all options.
   std::string dataset_text(const Cell& cell) const;
 
+  /// The stages of a method with all options.
+  std::vector<Choice> stages_in_full(const MethodChoice& method) const;
+
   /// Definitions of the labels of metrics and methods: one line "LABEL\tNAME, all options" each;
   /// the stages of a method are joined by "; +".
   std::string metric_definitions() const;

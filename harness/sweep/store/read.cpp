@@ -11,6 +11,7 @@
 #include "harness/sweep/store/open.hpp"
 #include "harness/sweep/store/schema.hpp"
 #include "harness/sweep/store/stored_cells.hpp"
+#include "harness/sweep/store/stored_options.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -57,6 +58,7 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
 std::vector<CellRow> read_cells(const std::filesystem::path& file) {
   Database database = open_store(file);
   std::vector<StoredCell> cells = read_intact_cells(database);
+  add_options(database, cells);
   std::unordered_map<std::int64_t, CellRow*> by_id;
   for (StoredCell& cell : cells) by_id.emplace(cell.id, &cell);
   const auto add = [&](const std::string& table, const auto& read) {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <future>
 #include <set>
-#include <sstream>
 #include <unordered_map>
 
 #include "datasets/core/error.hpp"
@@ -9,6 +8,7 @@
 #include "harness/sweep/store/open.hpp"
 #include "harness/sweep/store/read.hpp"
 #include "harness/sweep/store/schema.hpp"
+#include "harness/sweep/store/stored_options.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -110,18 +110,6 @@ void join_evaluated_contents(Database& database, std::vector<StoredCell>& cells)
   }
 }
 
-/// Adds the options with their defaults, as the config of the last run has them.
-void add_all_options(Database& database, std::vector<StoredCell>& cells) {
-  Statement config = database.prepare("SELECT value FROM run WHERE key = 'methods'");
-  std::istringstream lines(config.step() ? config.text() : "");
-  std::map<std::string, SharedText> options;
-  for (std::string line; std::getline(lines, line);) {  // LABEL, tab, options
-    const std::size_t end = std::min(line.find('\t'), line.size());
-    options[line.substr(0, end)] = line.substr(end);
-  }
-  for (StoredCell& cell : cells) cell.all_method_options = options[cell.method];
-}
-
 /// For each cell, whether every sequence that began up to there has ended.
 std::vector<bool> ends_of_chunks(const std::vector<StoredCell>& cells) {
   std::unordered_map<std::string_view, std::size_t> last;
@@ -144,7 +132,7 @@ RecordReader::RecordReader(const std::filesystem::path& file)
       cells_(std::make_shared<std::vector<StoredCell>>(read_intact_cells(database_))),
       definitions_(read_definitions(database_)) {
   join_evaluated_contents(database_, *cells_);
-  add_all_options(database_, *cells_);
+  add_options(database_, *cells_);
   const bool can_fail = std::ranges::any_of(
       definitions_, [](const auto& entry) { return is_failed_metric(*entry.second); });
   if (can_fail) kinds_anywhere_ = kinds_of_all_cells(database_, definitions_);

@@ -9,6 +9,7 @@
 #include "harness/sweep/store/cell_writer.hpp"
 #include "harness/sweep/store/match_cells.hpp"
 #include "harness/sweep/store/stored_cells.hpp"
+#include "harness/sweep/store/stored_options.hpp"
 #include "harness/sweep/text/hash.hpp"
 
 namespace loopbench::harness {
@@ -82,6 +83,7 @@ std::map<std::string, std::string> run_values(const CellKeys& keys) {
           {"alignment", alignments},
           {"metrics", keys.metric_definitions()},
           {"methods", keys.method_definitions()},
+          {"options", options_json(keys)},
           {"baseline", sweep.baseline}};
 }
 

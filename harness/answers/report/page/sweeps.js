@@ -2,12 +2,10 @@
 (() => {
   "use strict";
   const R = window.R;
-  const families = (list, of, nameOf) => list.map((family) => ({
-    of, name: nameOf(family.name), options: family.options, members: family.members.map(([place, ...values]) => ({ place, values })),
+  const families = (list, of) => list.map((family) => ({
+    of, name: family.name, options: family.options, members: family.members.map(([place, ...values]) => ({ place, values })),
   }));
-  // "dual + dm" of "dual, use=all; + dm, planar=3".
-  const catalogueNames = (text) => text.split("; ").map((part) => part.split(",")[0]).join(" ");
-  const all = [...families(R.scores.sequence_families, "sequence", (name) => name), ...families(R.scores.method_families, "method", catalogueNames)];
+  const all = [...families(R.scores.sequence_families, "sequence"), ...families(R.scores.method_families, "method")];
   if (!all.length) R.hide("sweeps");
   if (!R.scores.growth.length) R.hide("growth");
 
@@ -126,7 +124,7 @@
     R.chart(figure, {
       label: `${name} over ${own[0].unit}`, height: 400, margin: { left: 66 },
       x: { label: own[0].unit, log: true, domain: R.paddedLog(d3.extent(points, (p) => p.x)), ticks: [...new Set(points.map((p) => p.x))] },
-      y: { label: `${name} [${unit}]`, log: true, domain: R.paddedLog(d3.extent(points, (p) => p.y)) },
+      y: { label: name, unit, log: true, domain: R.paddedLog(d3.extent(points, (p) => p.y)) },
       draw: (group, x, y) => {
         for (const g of all) {
           path(group, g.points, x, y, R.color(g.method), R.dash(g.method));
