@@ -170,7 +170,7 @@ def _add_color_bar(fig: Figure, data: Mapping[str, Any], em: float) -> None:
     axes = fig.add_axes((0.2, 3.2 * em / height, 0.6, 0.7 * em / height))
     scale = matplotlib.colors.Normalize(0.0, largest)
     colors = matplotlib.cm.ScalarMappable(scale)
-    bar = fig.colorbar(colors, cax=axes, orientation="horizontal", label=parts.LABELS["error"])
+    bar = fig.colorbar(colors, cax=axes, orientation="horizontal", label=parts.label("error"))
     bar.locator = MaxNLocator(4)
     bar.update_ticks()
     bar.solids.set(rasterized=False, edgecolor="face")

@@ -30,25 +30,31 @@ END = {"marker": "s", "linestyle": "", "color": "#202020"}
 ERROR_COLORS = ListedColormap(colormaps["plasma"](np.linspace(0.0, 0.86, 256)), "loopbench_error")
 if ERROR_COLORS.name not in colormaps:
     colormaps.register(ERROR_COLORS)
-LABELS = {
-    "time": "time [s]",
-    "distance": "distance [m]",
-    "x": "x [m]",
-    "y": "y [m]",
-    "z": "z [m]",
-    "roll": "roll [deg]",
-    "pitch": "pitch [deg]",
-    "yaw": "yaw [deg]",
-    "speed": "speed [m/s]",
-    "error": "position error [m]",
-    "error_x": "error x [m]",
-    "error_y": "error y [m]",
-    "error_z": "error z [m]",
-    "angle": "rotation error [deg]",
+AXES = {  # what is drawn along an axis, and its unit
+    "time": ("time", "s"),
+    "distance": ("distance", "m"),
+    "x": ("x", "m"),
+    "y": ("y", "m"),
+    "z": ("z", "m"),
+    "roll": ("roll", "deg"),
+    "pitch": ("pitch", "deg"),
+    "yaw": ("yaw", "deg"),
+    "speed": ("speed", "m/s"),
+    "error": ("position error", "m"),
+    "error_x": ("error x", "m"),
+    "error_y": ("error y", "m"),
+    "error_z": ("error z", "m"),
+    "angle": ("rotation error", "deg"),
 }
 _ANGLES = ("roll", "pitch", "yaw")
 _LARGEST_STEP = 120.0  # of an angle from one row to the next [deg]; larger ones are jumps
 _MOST_COLORED = 1000  # segments of a line whose colour is the error
+
+
+def label(name: str, above: str = "") -> str:
+    """Of an axis: "x + 4e5 [m]" of `x` above " + 4e5"."""
+    words, unit = AXES[name]
+    return f"{words}{above} [{unit}]"
 
 
 def is_map(panel: str) -> bool:
@@ -89,7 +95,7 @@ def draw_boxes(axes: Any, data: Mapping[str, Any], size: Sequence[float]) -> Non
     for box, median, look in zip(drawn["boxes"], drawn["medians"], reversed(looks)):
         box.set(facecolor=look["color"], alpha=0.6)
         median.set_color("black")
-    axes.set_xlabel(LABELS["error"])
+    axes.set_xlabel(label("error"))
     axes.set_xlim(left=0.0)
     _few_ticks(axes, size, rcParams["font.size"])
     axes.set_yticks([])
@@ -147,7 +153,7 @@ def _add_numbers(axis: Any, name: str) -> None:
     axis.set_major_formatter(numbers)
     axis.get_offset_text().set_visible(False)
     above = f" $-$ {origin:.9g}".replace("$-$ -", "$+$ ") if origin else ""
-    axis.set_label_text(LABELS[name].replace(" [", above + " [", 1))
+    axis.set_label_text(label(name, above))
 
 
 def _fitting_step(step: float, limits: Sequence[float], scale: float) -> float:
@@ -331,7 +337,7 @@ def draw_histogram(axes: Any, data: Mapping[str, Any], size: Sequence[float]) ->
             axes.bar(edges[:-1], shares, largest / 40, align="edge", color=look["color"], alpha=0.6)
         else:
             axes.plot(0.5 * (edges[1:] + edges[:-1]), shares, **look)
-    axes.set_xlabel(LABELS["error"])
+    axes.set_xlabel(label("error"))
     axes.set_ylabel("share of poses [%]")
     axes.margins(x=0.0)
     axes.set_ylim(bottom=0.0)

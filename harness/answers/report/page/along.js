@@ -22,7 +22,7 @@
       if (!traces.length) { R.nothing(host, `None of the selected ${R.word}s has a trajectory.`); continue; }
       R.chart(host, {
         label: `${label} of ${methods.map((m) => m.label).join(", ")}`, height: 250, zoom: true,
-        x: { label: by === "s" ? "path length of the reference [m]" : "time [s]", domain: [0, far] },
+        x: { ...R.along(by), domain: [0, far] },
         y: { label, domain: key === "a" ? [0, 1.05 * (d3.max(traces, (t) => d3.max(t.a)) || 1)] : [low, high] },
         draw: (group, x, y) => {
           group.append("line").attr("class", "zero").attr("x1", -1e4).attr("x2", 1e4).attr("y1", y(0)).attr("y2", y(0));
@@ -65,7 +65,7 @@
       R.caption(host, label, R.runName(s));
       R.chart(host, {
         label: `${label} of ${own.map((i) => methods[i].label).join(", ")}`, height: 250, zoom: true,
-        x: { label: by === "s" ? "path length of the reference [m]" : "time [s]", domain: [0, far] },
+        x: { ...R.along(by), domain: [0, far] },
         y: { label, domain: R.padded(R.extent(own.map((i) => traces[i].values.get(label)))) },
         draw: (group, x, y) => own.forEach((i) => R.curve(group, traces[i][by], traces[i].values.get(label), x, y, methods[i])),
       });

@@ -85,7 +85,10 @@
 
   const moves = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
 
-  // o: {label, width, height, margin, x: {label, domain, log, ticks, format}, y: likewise or {band}, equal, zoom,
+  // The axis along the path length of the reference, or the time.
+  R.along = (by) => (by === "s" ? { label: "path length of the reference", unit: "m" } : { label: "time", unit: "s" });
+
+  // o: {label, width, height, margin, x: {label, unit, domain, log, ticks, format}, y: likewise or {band}, equal, zoom,
   // draw(group, x, y), pointer}; draw is called again at every zoom.
   R.chart = (host, o) => {
     // Uses the available width, so that text keeps its size on a phone.
@@ -111,8 +114,8 @@
       return +(step * Math.floor(domain[0] / step)).toPrecision(9);
     };
     const [xOrigin, yOrigin] = [origin(o.x, xDomain), origin(o.y, yDomain)];
-    const withOrigin = (label, from) =>
-      from ? label.replace(" [", ` ${from < 0 ? "+" : "−"} ${Math.abs(from)} [`) : label;
+    const labelOf = (axis, from) => axis.label + (from ? ` ${from < 0 ? "+" : "−"} ${Math.abs(from)}` : "") +
+      (axis.unit ? ` [${axis.unit}]` : "");
     const numbers = (axis, s, from) => axis.format ? axis.format : axis.log ? R.number : from ? (t) => s.tickFormat(7)(t - from) : null;
     const scale = (axis, domain, range) => axis.band
       ? d3.scaleBand(axis.band, range).padding(above ? 0.5 : 0.25)
@@ -126,10 +129,10 @@
     const bottom = root.append("g").attr("class", "axis").attr("transform", `translate(0,${inner.height})`);
     const left = root.append("g").attr("class", "axis");
     root.append("text").attr("x", inner.width / 2).attr("y", inner.height + 37)
-      .attr("text-anchor", "middle").text(withOrigin(o.x.label, xOrigin));
+      .attr("text-anchor", "middle").text(labelOf(o.x, xOrigin));
     if (o.y.label) {
       root.append("text").attr("transform", `translate(${-margin.left + 14},${inner.height / 2}) rotate(-90)`)
-        .attr("text-anchor", "middle").text(withOrigin(o.y.label, yOrigin));
+        .attr("text-anchor", "middle").text(labelOf(o.y, yOrigin));
     }
     // A log axis over less than a decade has no powers of ten to label, so it gets plain ticks.
     const ticks = (s, axis, count) => {

@@ -31,7 +31,7 @@
     const colour = colourOf(part, names);
     R.chart(host, {
       label: `${part.kind}s of ${title}`, height: 440, equal: true, zoom: true,
-      x: { label: `${a} [m]`, domain: R.padded(R.extent([trace[a]])) }, y: { label: `${b} [m]`, domain: R.padded(R.extent([trace[b]])) },
+      x: { label: a, unit: "m", domain: R.padded(R.extent([trace[a]])) }, y: { label: b, unit: "m", domain: R.padded(R.extent([trace[b]])) },
       draw: (group, x, y) => part.begin.forEach((begin, k) => {
         const [i, j] = [R.placeAt(trace.t, begin), R.placeAt(trace.t, part.end[k])];
         const line = d3.range(i, Math.max(i + 1, j + 1)).map((p) => [x(trace[a][p]), y(trace[b][p])]);
@@ -50,10 +50,10 @@
     const [first, last] = d3.extent(trace.t);
     const times = d3.range(first, last + 1e-9, (last - first) / 400 || 1);
     const speed = times.map((t, i) => (i === 0 ? NaN : (distance(t) - distance(times[i - 1])) / (t - times[i - 1])));
-    const x = { label: by === "s" ? "path length of the reference [m]" : "time [s]", domain: [0, trace[by][trace[by].length - 1]] };
+    const x = { ...R.along(by), domain: [0, trace[by][trace[by].length - 1]] };
     R.caption(host, "Along the path", title);
     R.chart(host, {
-      label: `Speed along ${title}`, height: 190, zoom: false, x, y: { label: "speed [m/s]", domain: [0, 1.05 * (d3.max(speed) || 1)] },
+      label: `Speed along ${title}`, height: 190, zoom: false, x, y: { label: "speed", unit: "m/s", domain: [0, 1.05 * (d3.max(speed) || 1)] },
       margin: { left: 110 },
       draw: (group, sx, sy) => {
         const segments = parts.find((p) => p.kind === "segment");

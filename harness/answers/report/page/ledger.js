@@ -27,7 +27,7 @@
     const curve = d3.line().x((i) => i[0]).y((i) => i[1]);
     R.chart(host, {
       label: "Keyframes with loop closures, coloured by what the others state", height: 470, equal: true, zoom: true,
-      x: { label: `${a} [m]`, domain: R.padded(R.extent([keyframes[a]])) }, y: { label: `${b} [m]`, domain: R.padded(R.extent([keyframes[b]])) },
+      x: { label: a, unit: "m", domain: R.padded(R.extent([keyframes[a]])) }, y: { label: b, unit: "m", domain: R.padded(R.extent([keyframes[b]])) },
       draw: (group, x, y) => {
         const at = (i) => [x(keyframes[a][i]), y(keyframes[b][i])];
         group.append("path").attr("class", "band").style("stroke-width", 2).attr("d", curve(d3.range(keyframes.t.length).map(at)));

@@ -26,8 +26,8 @@
     .attr("d", d3.line().x((i) => x(reference[a][i])).y((i) => y(reference[b][i]))(d3.range(reference.t.length)));
 
   const around = (traces, [a, b]) => ({
-    x: { label: `${a} [m]`, domain: R.padded(extent(traces.map((t) => t[a]))) },
-    y: { label: `${b} [m]`, domain: R.padded(extent(traces.map((t) => t[b]))) },
+    x: { label: a, unit: "m", domain: R.padded(extent(traces.map((t) => t[a]))) },
+    y: { label: b, unit: "m", domain: R.padded(extent(traces.map((t) => t[b]))) },
   });
 
   R.follow(() => {

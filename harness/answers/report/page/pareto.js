@@ -38,7 +38,7 @@
     const front = d3.sort(R.front(fair), (p) => p.ms);
     R.chart(host, {
       label: `${R.kindLabel(kind)} against time`, height: 400, zoom: true, margin: { left: 66, right: 24 },
-      x: { label: `time of the ${R.word} [ms]`, domain: R.paddedLog(d3.extent(all, (p) => p.ms)), log: true },
+      x: { label: `time of the ${R.word}`, unit: "ms", domain: R.paddedLog(d3.extent(all, (p) => p.ms)), log: true },
       y: { label: R.kindLabel(kind), domain: R.paddedLog(d3.extent(all, (p) => p.error)), log: true },
       draw: (group, x, y) => {
         group.append("path").attr("class", "curve").style("stroke", "var(--soft)").attr("stroke-dasharray", "5 4")
