@@ -89,14 +89,13 @@ class InputReader {
 
  private:
   ReadOptions options_of(const std::filesystem::path& file, Format format) const {
-    ReadOptions out{.format = format,
-                    .period = o_.period,
-                    .repeats = o_.repeats,
-                    .sort = o_.sort,
-                    .drop_invalid = o_.drop_invalid,
-                    .stamp_unit = o_.stamp_unit};
-    if (times_ && gets_times(file)) out.times = times_;
-    return out;
+    return {.format = format,
+            .times = times_ && gets_times(file) ? times_ : std::nullopt,
+            .period = o_.period,
+            .repeats = o_.repeats,
+            .sort = o_.sort,
+            .drop_invalid = o_.drop_invalid,
+            .stamp_unit = o_.stamp_unit};
   }
 
   static bool lacks_stamps(const std::filesystem::path& file) {
