@@ -28,7 +28,7 @@ from .problem import Declined, Edges, Increment, Problem, read_problem
 from .serving import corrector, dataset, incremental, metric, serve, solve
 
 #: The version of loopbench, of the program and this package.
-__version__ = "1.0.0"
+__version__ = "1.1.0"
 
 if TYPE_CHECKING:
     from .correction import correct, load, loops, methods, problem_of
