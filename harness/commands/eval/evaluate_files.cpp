@@ -14,8 +14,8 @@
 #include "harness/commands/eval/evaluated_store.hpp"
 #include "harness/sweep/process/write_file.hpp"
 #include "harness/sweep/run/build.hpp"
-#include "harness/sweep/store/read.hpp"
 #include "harness/sweep/store/match_cells.hpp"
+#include "harness/sweep/store/read.hpp"
 #include "harness/sweep/store/store.hpp"
 #include "harness/sweep/text/printable.hpp"
 
