@@ -90,7 +90,7 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("drop_invalid",
         o.drop_invalid,
         "drop rows with numbers that are not finite, or zero quaternions");
-  visit("stamp_unit", o.stamp_unit, "unit of stamps that state none");
+  visit("stamp_unit", o.stamp_unit, "unit of stamps, if the file does not name it");
   visit("offset",
         o.offset,
         "time offset between the clocks: stamps of the reference are those of the estimate plus "

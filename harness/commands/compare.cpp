@@ -124,7 +124,7 @@ void add_compare(CLI::App& app, int& exit_code) {
   add(command,
       "--assert SENTENCE",
       a.assertions,
-      "Sentence that the comparison must show; otherwise exit with 1. See below")
+      "Sentence that the results must support; otherwise exit with 1. See below")
       ->allow_extra_args(false);
   add(command,
       "--value",

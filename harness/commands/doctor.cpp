@@ -188,7 +188,11 @@ void add_doctor(CLI::App& app, int& exit_code) {
       "doctor",
       "Find mistakes in trajectory files or a pose graph: time offset, units, axes, quaternion "
       "order, another body, exchanged or wrong files, jumps, false closures, information matrices");
-  add(*command, "reference REF", a->reference, "Reference trajectory, or a pose graph")->required();
+  add(*command,
+      "reference REF",
+      a->reference,
+      "Reference trajectory, pose graph, or (with --loops) the estimate itself")
+      ->required();
   add(*command, "estimates EST", a->estimates, "Estimated trajectories");
   add(*command,
       "--loops FILE",

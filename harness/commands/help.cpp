@@ -128,7 +128,7 @@ const std::map<std::string, ExitCodes> kExitCodes{
     {"eval", {"an estimate failed or covers too little"}},
     {"compare", {"an assertion is not shown"}},
     {"check", {"regressions"}},
-    {"loops", {"closures or anchors contradict each other"}},
+    {"loops", {"closures, anchors or odometry contradict each other"}},
     {"doctor", {"mistakes found or nothing could be checked"}},
 };
 

@@ -37,8 +37,8 @@ void declare_reading(CLI::App& command,
   reads(command, add(command, "--times FILE", reading.times, times));
   command.add_option("--period", reading.period, "Time between poses without stamps [s]")
       ->check(finite_number());
-  add(command, "--stamp-unit", reading.stamp_unit, "Unit of stamps that state none");
-  add(command, "--repeats", reading.repeats, "Poses with a repeated stamp");
+  add(command, "--stamp-unit", reading.stamp_unit, "Unit of stamps, if the file does not name it");
+  add(command, "--repeats", reading.repeats, "How to treat poses with a repeated stamp");
   command.add_flag("--sort", reading.sort, "Sort rows that are not in order of time");
   command.add_flag("--drop-invalid",
                    reading.drop_invalid,
@@ -69,7 +69,7 @@ void declare_fields(CLI::App& command,
 void declare_pose_filters(CLI::App& command,
                           std::optional<std::size_t>& downsample,
                           std::vector<double>& motion_filter) {
-  add(command, "--downsample N", downsample, "Evenly spaced poses to keep of each file")
+  add(command, "--downsample N", downsample, "Number of evenly spaced poses to keep per file")
       ->check(positive_number());
   add(command,
       "--motion_filter M DEG",
@@ -85,12 +85,14 @@ void declare_problem(CLI::App& command, CorrectArguments& problem) {
   reads(command,
         add(command, "estimate ESTIMATE", problem.estimate, "Trajectory file, or a g2o graph"))
       ->required();
-  reads(command,
-        add(command,
-            "--loops FILE",
-            problem.loops,
-            "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a g2o "
-            "graph whose vertices are the poses of ESTIMATE"));
+  reads(
+      command,
+      add(command,
+          "--loops FILE",
+          problem.loops,
+          "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], the pose of "
+          "the body at stamp_to in the body frame at stamp_from [s, m, rad]; or a g2o graph whose "
+          "vertices are the poses of ESTIMATE"));
   command
       .add_option_function<std::vector<std::string>>(
           "--break",
@@ -99,7 +101,7 @@ void declare_problem(CLI::App& command, CorrectArguments& problem) {
                 {fmt::format("breaks={}", fmt::join(given, " ")), "--break"});
           },
           "The estimate starts again at this pose (a new map, a robot that was carried): the "
-          "odometry that arrives there is of unknown motion; repeatable")
+          "motion to this pose is unknown; repeatable")
       ->type_name("STAMP|ID")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -126,7 +128,7 @@ void declare_figures(CLI::App& command, FigureOptions& options, const std::strin
   add(command,
       "--plane WORD",
       options.plane,
-      "Plane of the map: xy, xz or yz; default: the largest extent")
+      "Plane of the map: xy, xz or yz; default: that of the largest extent")
       ->check(CLI::IsMember({"xy", "xz", "yz"}));
   const std::vector<CLI::Option*> of_files{
       add(command,
@@ -146,7 +148,7 @@ void declare_figures(CLI::App& command, FigureOptions& options, const std::strin
       add(command,
           "--panel-columns N",
           options.columns,
-          "Panels in a row; default: 2; of traj plot 3")
+          "Panels in a row; default: 2 (traj plot: 3)")
           ->check(CLI::Range(1, 10)),
       command.add_flag(
           "--script",

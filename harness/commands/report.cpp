@@ -29,7 +29,8 @@ void add_report(CLI::App& app, int& exit_code) {
   add(command,
       "--size",
       arguments->megabytes,
-      "Maximum file size, reached by thinning trajectories, then by leaving out sequences [MB]")
+      "Maximum file size [MB]. To fit, the report omits trajectories of later repeats, then draws "
+      "coarser curves, then omits later sequences from tables and figures")
       ->check(number_between(0.1, 1000.0))
       ->capture_default_str();
   command.callback([arguments, &exit_code] {

@@ -176,22 +176,18 @@ void add_table(CLI::App& app, int& exit_code) {
   TableArguments& a = *arguments;
   CLI::App& command = *app.add_subcommand("table", "Print tables of a sweep's results");
   declare_store(command, a.store);
-  const std::string columns =
-      fmt::format("comma-separated fields ({})", fmt::join(record_columns(), ", ")) +
-      " or options of methods (planar)";
-  const auto layout = [&](const char* name,
-                          std::vector<std::string>& fields,
-                          const char* before,
-                          const char* after) {
-    add(command, name, fields, before + columns + after)->delimiter(',')->capture_default_str();
+  const auto layout = [&](const char* name, std::vector<std::string>& fields, const char* help) {
+    add(command, name, fields, help)->delimiter(',')->capture_default_str();
   };
-  layout("--rows", a.spec.rows, "Rows: ", "; sequence: sequences by methods");
-  layout("--columns", a.spec.columns, "Columns: ", "");
+  layout("--rows", a.spec.rows, "Fields whose values are the rows, comma-separated");
+  layout("--columns", a.spec.columns, "Fields whose values are the columns");
   layout("--split",
          a.spec.split,
-         "One table for each: ",
-         "; '': one table; without layout, one score of several sequences is one table of methods "
-         "by sequences");
+         "Fields for whose values there is a table each; '' makes one table. Without --rows, "
+         "--columns and --split, a single score of several sequences gives one table of methods by "
+         "sequences");
+  command.footer(fmt::format("Fields: {}, and options of methods and datasets (planar).",
+                             fmt::join(record_columns(), ", ")));
   add(command,
       "--value",
       a.spec.value,
@@ -208,8 +204,9 @@ void add_table(CLI::App& app, int& exit_code) {
   add(command,
       "--show",
       a.spec.show,
-      "Scores to show: ate,error x,gain,time,cpu,wall,memory; default: all but costs, with "
-      "--format latex or markdown the first (of a single sequence with gain and time)");
+      "Scores to show: ate,error x,gain,time,cpu,wall,memory; gain is the decrease relative to the "
+      "baseline in percent. Default: all but costs; with --format latex or markdown the first one "
+      "(of a single sequence also gain and time)");
   add(command,
       "--success",
       a.success,
@@ -217,10 +214,11 @@ void add_table(CLI::App& app, int& exit_code) {
       "and incomplete runs do not succeed. Default: the first score, usually ATE; others by "
       "--where and --value")
       ->check(finite_number());
-  command.add_flag("--growth",
-                   a.growth,
-                   "Print how processor time and memory of each method grow with the keyframes or "
-                   "closures of a sweep over them: fitted exponents with intervals");
+  command.add_flag(
+      "--growth",
+      a.growth,
+      "Print how processor time and memory of each method grow in a sweep over the number "
+      "of keyframes or closures: fitted exponents with intervals");
   add(command,
       "--where",
       a.where,

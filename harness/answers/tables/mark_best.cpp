@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -63,10 +65,13 @@ std::vector<Lane> lanes_of(const TableNumbers& table, const TableSpec& spec, boo
   return out;
 }
 
-/// Empty if a value is best, or nothing is compared.
-std::string why_none_is_best(const Comparison& c) {
+/// Empty if a value is best, or nothing is compared. Of `tested` columns or rows, which share the
+/// level, so more groups are needed than for a single score.
+std::string why_none_is_best(const Comparison& c, std::size_t tested, const char* lanes) {
   if (c.is_best || c.methods.empty()) return "";
-  return c.can_show ? coverage_text(c, true) : cannot_show_text(c);
+  if (c.can_show) return coverage_text(c, true);
+  const std::string why = cannot_show_text(c);
+  return tested > 1 ? fmt::format("{} because {} {} are tested", why, tested, lanes) : why;
 }
 
 /// Whether the means of the best methods are before those of all others.
@@ -107,7 +112,8 @@ void mark_best(Table& out, const TableNumbers& table, const TableSpec& spec, boo
     const Comparison c =
         standings(std::move(scores[0]),
                   {.value = spec.value, .alpha = options.alpha / static_cast<double>(tested)});
-    if (why_none.empty()) why_none = why_none_is_best(c);
+    if (why_none.empty())
+      why_none = why_none_is_best(c, tested, along_columns ? "columns" : "rows");
     if (!c.is_best) continue;
     std::vector<TableCell*> best, others;
     for (const MethodVerdict& m : c.methods) {
@@ -123,7 +129,10 @@ void mark_best(Table& out, const TableNumbers& table, const TableSpec& spec, boo
     out.marks = {along_columns, tested};
     out.notes.insert(out.notes.begin(), marks_text(*out.marks));
   } else if (!why_none.empty()) {
-    out.notes.push_back("no best value is marked: " + why_none);
+    out.notes.push_back(
+        "no best value is marked: " + why_none +
+        (tested > 1 ? fmt::format(" ({} {} are tested)", tested, along_columns ? "columns" : "rows")
+                    : ""));
   }
 }
 

@@ -18,11 +18,11 @@ namespace {
 using methods::ClosureFinding;
 using methods::ClosureJudgement;
 
-/// "; freed steps of the odometry: ...; deviations against those stated: ..."
+/// "; freed steps of the odometry: ...; estimated standard deviations: ..."
 std::string details(const ClosureJudgement& found, const Problem& problem) {
   const std::string steps = methods::freed_steps_text(problem, found);
   return (steps.empty() ? "" : "; steps of the odometry that are wrong and were freed: " + steps) +
-         "; deviations against those stated: " + methods::deviations_text(found.factors);
+         "; estimated standard deviations: " + methods::deviations_text(found.factors);
 }
 
 std::string of_all(std::size_t part, std::size_t all) {
@@ -32,8 +32,9 @@ std::string of_all(std::size_t part, std::size_t all) {
 /// Consensus followed the check.
 CheckSentence of_consensus(const ClosureJudgement& found, const Problem& problem) {
   if (!found.is_decided()) {
-    const char* const what = problem.anchors.empty() ? "nothing is moved" : "no closure is used";
-    return {fmt::format("{}: {}; --trust-loops corrects with all closures",
+    const char* const what =
+        problem.anchors.empty() ? "the path is unchanged" : "no closure is used";
+    return {fmt::format("{} because {}. --trust-loops uses all closures anyway.",
                         what,
                         methods::undecided_text(found)),
             true};
@@ -71,7 +72,7 @@ CheckSentence of_other(const ClosureCheck& check, const Problem& problem, const 
   if (!steps.empty()) {
     out += "; steps of the odometry are wrong: " + steps + "; --method consensus frees them";
   }
-  out += "; deviations against those stated: " + methods::deviations_text(found.factors);
+  out += "; estimated standard deviations: " + methods::deviations_text(found.factors);
   return {out, !wrong.empty() || !steps.empty()};
 }
 

@@ -59,23 +59,23 @@ void add_correct(CLI::App& app, int& exit_code) {
   command
       ->add_flag("--trust-loops",
                  c.trusts_loops,
-                 "Correct by pose_graph with all closures, also if some contradict the others")
+                 "Correct by pose_graph with all closures, even if some contradict the others")
       ->excludes(method);
   command->add_flag("--gravity",
                     c.gravity,
-                    "Hold roll and pitch of each keyframe as given (visual-inertial odometry); the "
-                    "z axis of the world is vertical");
+                    "Keep roll and pitch of each keyframe at their input values (visual-inertial "
+                    "odometry); the z axis of the world must be vertical");
   const auto file = [&](const char* name, std::string& value, const char* help) {
     reads(*command, command->add_option(name, value, help))->type_name("FILE");
   };
   file("--anchors",
        c.anchors,
-       "Measured positions: stamp x y z [sigma, or xx xy xz yy yz zz of the covariance], or any "
-       "format of a reference");
+       "Measured positions [s, m]: stamp x y z [sigma, or xx xy xz yy yz zz of the covariance], or "
+       "any format of a reference");
   add(*command,
       "--start-equals-end METRES",
       c.start_equals_end,
-      "Add a closure: the last position is the first one, up to this standard deviation [m]; the "
+      "Add a closure: the last position equals the first, with this standard deviation [m]; the "
       "rotation is not measured")
       ->check(finite_number())
       ->check(positive_number());
@@ -103,7 +103,8 @@ void add_correct(CLI::App& app, int& exit_code) {
          add(*command,
              "--ledger FILE",
              c.ledger,
-             "Write one row per closure: how well others predict it (as `loops --csv`)"),
+             "CSV file with one row per closure, showing how well others predict it (as `loops "
+             "--csv`)"),
          FileKind::printed);
   add(*command, "--plugin FILE", a->plugins, "Shared object with additional methods")
       ->allow_extra_args(false);

@@ -73,7 +73,11 @@ std::string text(const Correction& c) {
                      c.keyframes.size(),
                      counted(c.problem.odometry.size(), "odometry edge"),
                      counted(c.problem.closures.size(), "closure"));
-  if (c.rejected) out += fmt::format(" ({} rejected)", *c.rejected);
+  if (c.is_consensus && c.check->judgement != nullptr && !c.check->is_decided()) {
+    out += " (not used: undecided)";
+  } else if (c.rejected) {
+    out += fmt::format(" ({} rejected)", *c.rejected);
+  }
   if (!c.problem.anchors.empty()) out += ", " + counted(c.problem.anchors.size(), "anchor");
   out += fmt::format(", {:.1f} ms\n\n", 1e3 * c.seconds);
   out += rejected_text(c);
@@ -90,11 +94,6 @@ std::string text(const Correction& c) {
   } else {
     out += "no residuals: " + c.why_no_residuals + "\n";
   }
-  std::string counts;
-  for (const methods::Count& count : c.report.counts) {
-    counts += fmt::format("{}{} {:.6g}", counts.empty() ? "" : ", ", count.name, count.value);
-  }
-  if (!counts.empty()) out += "counts: " + counts + "\n";
   if (!check.text.empty() && !check.is_warning) out += "closures: " + check.text + "\n";
   for (const std::string& note : c.report.notes) out += "note: " + note + "\n";
   if (!c.out.empty() && !is_dash(c.out)) {

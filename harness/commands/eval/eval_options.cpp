@@ -70,6 +70,12 @@ void declare_pairing(CLI::App& command, EvalArguments& a) {
                   {"max_diff", "--max-diff,--t_max_diff"},
                   {"offset", "--offset,--t_offset"}},
                  a.settings);
+  command.get_option("--association")
+      ->description(
+          "Pairing in time (nearest: one-to-one, smallest differences first; evo: nearest, but a "
+          "pose can be paired twice; tum: greedy by difference, as associate.py; interpolate: the "
+          "reference at the estimate's stamps; interpolate_estimate: the estimate at the "
+          "reference's stamps, for control points and GNSS; index: equal indices, stamps ignored)");
   add(command,
       "--min-coverage SHARE",
       a.min_coverage,
@@ -94,6 +100,10 @@ void declare_alignment(CLI::App& command, EvalArguments& a) {
                   {"planar", "--planar"},
                   {"project", "--project_to_plane"}},
                  a.settings);
+  command.get_option("--planar")
+      ->description(
+          "Restrict se3 and sim3 to x, y and yaw. auto: if both trajectories are in one plane "
+          "within rounding; yes: both are moved to their planes");
   // As evo's flag, or with a value: --align, --align sim3, --align=sim3.
   CLI::Option* align = command.get_option("--align");
   align->expected(0, 1)->default_str("se3");
@@ -195,8 +205,9 @@ void declare_output(CLI::App& command, EvalArguments& a) {
   add(command,
       "--store DIR",
       a.store,
-      "Folder for a store of the results, for compare, table, report, plot and check: NAME_3.txt "
-      "and NAME/3.txt are run 3 of method NAME. Later calls add runs")
+      "Folder for a store of the results, for compare, table, report, plot and check; each call "
+      "adds runs. NAME_3.txt, NAME/3.txt and, for reference SEQUENCE.txt, NAME/SEQUENCE/3.txt are "
+      "run 3 of system NAME")
       ->excludes("--json")
       ->excludes("--csv")
       ->excludes("--unit")
@@ -206,8 +217,8 @@ void declare_output(CLI::App& command, EvalArguments& a) {
   add(command,
       "--group NAME",
       a.group,
-      "Recording of REF: sequences of one recording are not independent (default: by the poses of "
-      "the references)")
+      "Recording of REF; sequences of one recording are not independent (default: references with "
+      "the same positions form a group)")
       ->needs("--store");
 }
 

@@ -70,19 +70,19 @@ void add_loops(CLI::App& app, int& exit_code) {
         add(*command,
             "--anchors FILE",
             a->input.anchors,
-            "Measured positions: stamp x y z [sigma, or xx xy xz yy yz zz of the covariance], or "
-            "any format of a reference"));
+            "Measured positions [s, m]: stamp x y z [sigma, or xx xy xz yy yz zz of the "
+            "covariance], or any format of a reference"));
   writes(*command,
          add(*command,
              "-o,--out FILE",
              a->repaired,
-             "Write a g2o graph with the closures that agree; steps of the odometry that are wrong "
-             "get a lower information"),
+             "Write a g2o graph with the closures that agree; wrong odometry steps get less "
+             "information"),
          FileKind::trajectory);
   command->add_flag(
       "--next",
       a->next,
-      "Print where one more closure would reduce the deviation of the positions most");
+      "Print where one more closure would reduce the standard deviation of the positions most");
   writes(*command,
          add(*command, "--csv FILE", a->csv, "Write one row per closure; - is standard output"),
          FileKind::printed);

@@ -31,7 +31,8 @@ LoopsResult loops(Problem problem,
                   std::string estimate,
                   const std::function<void(const std::string&)>& progress) {
   if (const std::string why = methods::why_no_ledger(problem); !why.empty()) {
-    throw InputError(estimate + ": " + why);
+    const bool needs_file = problem.closures.empty() && problem.ids.empty();
+    throw InputError(estimate + ": " + why + (needs_file ? ", expected --loops FILE" : ""));
   }
   LoopsResult out{std::move(estimate), std::move(problem), {}};
   methods::LedgerSettings settings;

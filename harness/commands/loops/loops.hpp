@@ -24,7 +24,7 @@ LoopsResult loops(Problem problem,
 methods::NextClosures next_closures(const LoopsResult& result);
 
 /// The verdict and a table of the closures, the most suspicious first, at most `rows`, in 80
-/// columns; then `next`.
+/// columns; then `next`. Sentences are lines without a limit.
 std::string text(const LoopsResult& result,
                  std::size_t rows,
                  const std::optional<methods::NextClosures>& next = {});

@@ -145,13 +145,12 @@ std::string text(const LoopsResult& result,
   out +=
       "odometry: distance and angle between the closure and the odometry between its keyframes\n"
       "other places: distance and angle between the closure and the solution with all closures "
-      "that agree, except those of its own place (both ends within 20 keyframes of those of the "
-      "place's "
-      "first closure); [sd]: the same in stated standard deviations\n"
+      "that agree, except those of its own place (a place is a group of closures whose two ends "
+      "are within 20 keyframes of the ends of its first closure); [sd]: the same in stated "
+      "standard deviations\n"
       "without it: change of the positions [m] (rms) and decrease of chi2 if this closure is left "
       "out of the solution with all closures\n"
-      "~: computed to first order from the solution with the closure; other numbers are of a new "
-      "solution; -: not determined, or not computed\n"
+      "~: first-order approximation; -: not available\n"
       "Errors that all closures share (lever arm, bias) do not appear here.\n";
   return out;
 }

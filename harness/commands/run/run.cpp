@@ -169,7 +169,7 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   RunArguments& a = *arguments;
   CLI::App& command = *app.add_subcommand("run", "Run the sweep of a config and print a summary");
   declare_config(command, a.config);
-  add(command, "--only REGEX", a.only, "Only cells whose 'SEQUENCE / METHOD' matches");
+  add(command, "--only REGEX", a.only, "Run only cells whose name 'SEQUENCE / METHOD' matches");
   add(command,
       "--shard I/N",
       a.shard,

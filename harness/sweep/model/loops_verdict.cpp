@@ -15,11 +15,11 @@ using methods::ClosureLedger;
 using methods::LedgerRow;
 using methods::LedgerVerdict;
 
-/// "9.40 m and 179 deg from the prediction by the others; chi2 falls by 20594 without it".
+/// "9.40 m and 179 deg from its prediction by other places; chi2 falls by 20594 without it".
 std::string error_text(const LedgerRow& row) {
   std::string out;
   if (row.predicted) {
-    out = fmt::format("{} m and {} deg from its prediction by the others",
+    out = fmt::format("{} m and {} deg from its prediction by other places",
                       plain_number(row.predicted->metres),
                       plain_number(row.predicted->degrees));
   } else if (row.in_odometry) {
@@ -50,8 +50,10 @@ std::string suspects_text(const LoopsResult& result, std::size_t count) {
 
 std::string places_text(const ClosureLedger& ledger) {
   if (ledger.places < 2) {
-    return "All closures are at one place, so no other place predicts them, and it cannot be shown "
-           "whether the correction helps.";
+    return fmt::format("{}, so it cannot be shown whether the correction helps.",
+                       ledger.rows.size() == 1
+                           ? "No other place predicts it"
+                           : "They are at one place, and no other place predicts them");
   }
   const std::string out = fmt::format(
       "Each of the {} places is predicted from the others, typically with {} of the odometry's "
@@ -81,16 +83,26 @@ std::string steps_text(const LoopsResult& result) {
   return out.empty() ? out : out + "; `correct` frees them.";
 }
 
+/// What `wrong` closures do to the `agreeing` ones.
+std::string contradiction_text(std::size_t wrong, std::size_t agreeing) {
+  if (agreeing > 1) {
+    return fmt::format(
+        "{} with the {} that agree", wrong == 1 ? "disagrees" : "disagree", agreeing);
+  }
+  const std::string verb = wrong == 1 ? "contradicts" : "contradict";
+  if (agreeing == 0) return verb + " the odometry";
+  return verb + " the odometry and the one closure that agrees with it";
+}
+
 std::string disagreement_text(const LoopsResult& result) {
   const ClosureLedger& ledger = result.ledger;
   const std::size_t all = ledger.rows.size(), agreeing = ledger.judgement->agreeing;
   std::string out;
   if (agreeing < all) {
-    out = fmt::format("{} of {} {} with the {} that agree: {}. `correct` drops {}.",
+    out = fmt::format("{} of {} {}: {}. `correct` drops {}.",
                       all - agreeing,
                       counted(all, "closure"),
-                      all - agreeing == 1 ? "disagrees" : "disagree",
-                      agreeing,
+                      contradiction_text(all - agreeing, agreeing),
                       suspects_text(result, all - agreeing),
                       all - agreeing == 1 ? "it" : "them");
   }
@@ -107,29 +119,39 @@ std::string unchecked_text(const LoopsResult& result) {
     return count + " cannot be checked: " + ledger.why_unknown + ".";
   }
   const std::size_t more = ledger.judgement->more_needed;
-  const std::string remedy =
-      more > 0 ? fmt::format(" About {} at other places would decide, if they agree.",
-                             counted(more, "further closure"))
-               : " Closures at other places would decide.";
+  std::string remedy = " Closures at other places would decide.";
+  if (more == 1) {
+    remedy = " About one more, at another place, would decide if it agrees.";
+  } else if (more > 1) {
+    remedy = fmt::format(" About {} more, at other places, would decide if they agree.", more);
+  }
+  const bool is_one = ledger.rows.size() == 1;
   if (ledger.verdict == LedgerVerdict::few) {
     return fmt::format(
-        "{} cannot be checked: too few to confirm each other.{} `correct` moves "
-        "nothing without --trust-loops.",
-        count,
+        "{} can be neither confirmed nor rejected.{} `correct` moves nothing without "
+        "--trust-loops.",
+        is_one ? "The only closure" : "The " + count,
         remedy);
   }
   const std::string suspects = suspects_text(result, std::min<std::size_t>(2, ledger.rows.size()));
   if (ledger.verdict == LedgerVerdict::rival) {
     return fmt::format(
-        "Two sets of closures contradict each other, and neither is clearly "
-        "likelier; most suspicious: {}.{} `correct` moves nothing.",
+        "Two sets of closures contradict each other, and neither is clearly more likely to be "
+        "true. The most suspicious closures are {}.{} `correct` moves nothing.",
+        suspects,
+        remedy);
+  }
+  if (is_one) {
+    return fmt::format(
+        "The only closure contradicts the odometry: {}. The closure, the odometry (its scale) or "
+        "the stated covariances can be wrong (see loopbench doctor).{} `correct` moves nothing.",
         suspects,
         remedy);
   }
   return fmt::format(
-      "Odometry and closures contradict each other, most at {}. No closure confirms "
-      "another, so the cause can be the closures, the odometry (its scale) or the stated "
-      "covariances (see loopbench doctor).{} `correct` moves nothing.",
+      "Odometry and closures contradict each other, most at {}. No closure confirms another, so "
+      "the closures, the odometry (its scale) or the stated covariances can be wrong (see "
+      "loopbench doctor).{} `correct` moves nothing.",
       suspects,
       remedy);
 }
@@ -146,10 +168,9 @@ std::string unpredicted_text(const LoopsResult& result) {
   }
   if (count == 0) return "";
   return fmt::format(
-      " {} cannot be checked by other places (the first is {}): only its place connects these "
-      "keyframes; another closure between them, at another place, would allow the check.",
-      counted(count, "closure"),
-      first);
+      " No other place predicts {}. Another closure between {} keyframes, at another place, would.",
+      count == 1 ? first : fmt::format("{} closures (the first is {})", count, first),
+      count == 1 ? "its" : "their");
 }
 
 std::string closures_verdict(const LoopsResult& result) {
@@ -158,10 +179,9 @@ std::string closures_verdict(const LoopsResult& result) {
     return disagreement_text(result) + unpredicted_text(result);
   }
   if (ledger.verdict != LedgerVerdict::agrees) return unchecked_text(result);
-  const std::string all =
-      ledger.rows.size() == 1
-          ? "The closure agrees with the odometry. "
-          : fmt::format("All {} agree. ", counted(ledger.rows.size(), "closure"));
+  std::string all = fmt::format("All {} closures agree. ", ledger.rows.size());
+  if (ledger.rows.size() == 1) all = "The closure agrees with the odometry. ";
+  if (ledger.rows.size() == 2) all = "Both closures agree. ";
   return all + places_text(ledger) + unpredicted_text(result);
 }
 

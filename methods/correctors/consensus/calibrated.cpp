@@ -17,7 +17,8 @@ Problem calibrated(const Problem& problem, Report& report) {
   const ClosureJudgement found = report.time("judge", [&] { return judge_closures(problem); });
   const EstimatedFactors factors = found.is_decided() ? found.factors : EstimatedFactors{};
   if (!found.is_decided()) {
-    report.notes.push_back("calibrate: the stated deviations are used: " + undecided_text(found));
+    report.notes.push_back("calibrate: the stated standard deviations are used because " +
+                           undecided_text(found));
   }
   report.count("factor_t", factors.translation);
   report.count("factor_r", factors.rotation);

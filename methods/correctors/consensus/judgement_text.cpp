@@ -33,13 +33,17 @@ std::string direction_text(double factor) {
 }
 
 std::string deviations_text(const EstimatedFactors& factors) {
+  const auto compared = [](double factor) {
+    const std::string direction = direction_text(factor);
+    return direction == "as stated" ? direction : direction + " than stated";
+  };
   const std::string rotation =
       factors.is_rotation_known && direction_text(factors.rotation) != "as stated"
-          ? fmt::format("about {:.2g} times the stated", factors.rotation)
-          : direction_text(factors.rotation);
-  const std::string translation = direction_text(factors.translation);
+          ? fmt::format("about {:.2g} times the stated one", factors.rotation)
+          : compared(factors.rotation);
+  const std::string translation = compared(factors.translation);
   if (rotation == "as stated" && translation == rotation) return "as stated";
-  return "rotation: " + rotation + "; translation: " + translation;
+  return "rotation " + rotation + ", translation " + translation;
 }
 
 std::vector<std::size_t> disagreeing_closures(const ClosureJudgement& judgement) {
@@ -78,7 +82,8 @@ std::string disagreeing_text(const Problem& problem,
   }
   if (!slipped.empty()) {
     out += (out.empty() ? "" : "; ") + closures_text(problem, judgement, slipped) +
-           ", whose error is larger than their deviations allow";
+           ", whose error is larger than " + (slipped.size() == 1 ? "its" : "their") +
+           " standard deviation allows";
   }
   return out;
 }
@@ -94,9 +99,11 @@ std::string freed_steps_text(const Problem& problem, const ClosureJudgement& jud
 }
 
 std::string undecided_text(const ClosureJudgement& of) {
-  if (of.outcome == ConsensusOutcome::none) return "no closure is likelier true than false";
+  if (of.outcome == ConsensusOutcome::none) return "no closure is more likely true than false";
   const std::string more =
-      fmt::format("about {} more closures that agree would decide", of.more_needed);
+      of.more_needed == 1
+          ? "about one more closure that agrees would decide"
+          : fmt::format("about {} more closures that agree would decide", of.more_needed);
   if (of.outcome == ConsensusOutcome::rival) {
     return fmt::format(
         "two sets of closures contradict each other, with log odds {:.3g} and "
@@ -105,7 +112,7 @@ std::string undecided_text(const ClosureJudgement& of) {
         of.rival_evidence.value_or(0.0),
         more);
   }
-  return fmt::format("agreeing closures are too few: log odds {:.3g}, needed {:.3g}; {}",
+  return fmt::format("too few closures agree: log odds {:.3g}, needed {:.3g}; {}",
                      of.evidence,
                      of.evidence_needed,
                      more);
