@@ -89,15 +89,21 @@ bool has_false_clause(const Comparison& c, const Truth& truth) {
   });
 }
 
+/// Log ratios of method 1 to another one, on all runs.
+std::vector<double> log_ratios(const Observations& all, std::size_t method) {
+  std::vector<double> out;
+  for (std::size_t run = 0; run < all.runs.size(); ++run)
+    out.push_back(std::log(*all.values[1][run].value / *all.values[method][run].value));
+  return out;
+}
+
 /// Whether method 1 is ahead of each rival by Wilcoxon's test, with Holm's correction over the
 /// rivals.
 bool beats_by_holm(const Observations& all) {
   std::vector<double> p;
   for (std::size_t m = 0; m < all.values.size(); ++m) {
     if (m == 1) continue;
-    std::vector<double> differences;
-    for (std::size_t run = 0; run < all.runs.size(); ++run)
-      differences.push_back(std::log(*all.values[1][run].value / *all.values[m][run].value));
+    const std::vector<double> differences = log_ratios(all, m);
     const auto wins = std::ranges::count_if(differences, [](double d) { return d < 0.0; });
     p.push_back(2 * wins > std::ssize(differences) ? wilcoxon_p(differences) : 1.0);
   }
@@ -112,6 +118,9 @@ bool is_plain(const Truth& t) {
   return t.runs_in_group == 1 && t.copies == 0.0 && t.diverges == 0.0 && t.hard == 0.0 &&
          !t.is_independent;
 }
+
+/// Its time grows with the cube of the runs.
+constexpr std::size_t kMostForWilcoxon = 20;
 
 }  // namespace
 
@@ -129,6 +138,9 @@ ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std:
     }
     const bool is_power = is_fast && truth.effects[1] < 0.0 && truth.failures.empty();
     out.holm += is_power && beats_by_holm(all[0]) ? 1.0 : 0.0;
+    const bool is_two = is_fast && truth.effects.size() == 2 && truth.failures.empty() &&
+                        truth.groups <= kMostForWilcoxon;
+    out.wilcoxon += is_two && wilcoxon_p(log_ratios(all[0], 0)) <= 0.05 ? 1.0 : 0.0;
     const Comparison c = compare(std::move(all), {.baseline = "m0"}).at(0);
     bool is_false = false;
     std::size_t best = 0;
@@ -159,7 +171,8 @@ ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std:
                        &out.contradicted,
                        &out.claimed,
                        &out.found,
-                       &out.holm}) {
+                       &out.holm,
+                       &out.wilcoxon}) {
     *rate /= repeats;
   }
   return out;

@@ -22,6 +22,7 @@ struct ErrorRates {
   double claimed = 0.0;       ///< method 1 is shown to be below the baseline
   double found = 0.0;         ///< the truly best method is reported as best
   double holm = 0.0;          ///< it beats each rival with Holm's correction over the rivals
+  double wilcoxon = 0.0;      ///< two methods differ by Wilcoxon's test; up to 20 runs
 
   double largest() const { return std::max({baseline, best, sequences, failures, missed}); }
 };

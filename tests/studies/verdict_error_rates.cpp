@@ -3,7 +3,7 @@
 /// is too high, two statements contradict each other, or the power is below that of Wilcoxon's test
 /// with Holm's correction over the rivals. A cell gets a quarter of the repeats, all of them if a
 /// rate exceeds 4 %, and new ones, four times as many, if these do not tell it from the limit.
-/// Usage: verdict_error_rates [REPEATS [methods|sequences|failures|power]]
+/// Usage: verdict_error_rates [REPEATS [methods|sequences|failures|power|wilcoxon]]
 #include <fmt/format.h>
 
 #include <array>
@@ -237,6 +237,32 @@ bool print_power(int repeats) {
   return is_good;
 }
 
+/// Three runs of each of four sequences whose mean effect is 0: how often two methods are said to
+/// differ, by the verdict and by Wilcoxon's test, which is not about that mean.
+bool print_wilcoxon(int repeats) {
+  fmt::print(
+      "\n| effects; standard deviations | verdict | Wilcoxon |\n"
+      "| --- | ---: | ---: |\n");
+  const std::vector<double> one_noisy{1.0, 0.1, 0.1, 0.1};
+  bool is_good = true;
+  for (const Sequences& row :
+       {Sequences{"0; .3 / .3 / .3 / .3", {0, 0, 0, 0}, std::vector(4, .3)},
+        {"0; 1 / .1 / .1 / .1", {0, 0, 0, 0}, one_noisy},
+        {".45 -.15 -.15 -.15; 1 / .1 / .1 / .1", {.45, -.15, -.15, -.15}, one_noisy},
+        {".3 -.1 -.1 -.1; .5 / .1 / .1 / .1", {.3, -.1, -.1, -.1}, {.5, .1, .1, .1}}}) {
+    Truth truth{.effects = {0.0, 0.0},
+                .groups = 12,
+                .dispersion = 1.0 / std::sqrt(2.0),
+                .dispersions = row.scatter};
+    for (const double effect : row.effects) truth.sequences.push_back({0.0, effect});
+    const ErrorRates r = error_rates(truth, shapes()[0], repeats, 7);
+    fmt::print("| {} | {:.1f} % | {:.1f} % |\n", row.name, 100.0 * r.baseline, 100.0 * r.wilcoxon);
+    std::fflush(stdout);
+    is_good = is_good && is_low(r.baseline, repeats);
+  }
+  return is_good;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) try {
@@ -246,10 +272,11 @@ int main(int count, char** arguments) try {
   bool is_good = true;
   bool is_known = only.empty();
   using Print = bool (*)(int);
-  const std::array<std::pair<std::string, Print>, 4> tables{{{"methods", print_error_rates},
+  const std::array<std::pair<std::string, Print>, 5> tables{{{"methods", print_error_rates},
                                                              {"sequences", print_sequences},
                                                              {"failures", print_failures},
-                                                             {"power", print_power}}};
+                                                             {"power", print_power},
+                                                             {"wilcoxon", print_wilcoxon}}};
   for (const auto& [name, print] : tables) {
     if (repeats < 1 || (!only.empty() && only != name)) continue;
     is_known = true;
@@ -257,7 +284,8 @@ int main(int count, char** arguments) try {
   }
   if (repeats < 1 || count > 3 || !is_known) {
     fmt::print(stderr,
-               "usage: verdict_error_rates [REPEATS >= 1 [methods|sequences|failures|power]]\n");
+               "usage: verdict_error_rates [REPEATS >= 1 "
+               "[methods|sequences|failures|power|wilcoxon]]\n");
     return 2;
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
