@@ -1,4 +1,4 @@
-/// Pose graphs in g2o text format: SE2, SE3:QUAT, RST3:QUAT (Sim(3)) and TORO's EDGE3.
+/// Pose graphs in g2o text format: SE2, SE3:QUAT, RST3:QUAT (Sim(3)) and TORO's EDGE2 and EDGE3.
 #pragma once
 
 #include <cstdint>
@@ -56,10 +56,11 @@ struct InformationRules {
 /// - Information that is not positive definite is treated as `rules` state, before the conversion.
 /// - SE2 is lifted to SE(3): x, y, yaw are from the file; z, roll, pitch get positive diagonal
 ///   information, which does not affect the solution of a planar problem.
+/// - VERTEX2 and EDGE2 are those of SE2; the information of EDGE2 has TORO's order xx xy yy,
+///   yaw yaw, x yaw, y yaw.
 /// - VERTEX3 and EDGE3 contain x y z roll pitch yaw with R = Rz(yaw) Ry(pitch) Rx(roll) and
-/// information
-///   in that order, used as information of the twist. sphere2500.g2o agrees with its EDGE3
-///   original. iSAM writes square roots of information in the same format, which cannot be
+///   information in that order, used as information of the twist. sphere2500.g2o agrees with its
+///   EDGE3 original. iSAM writes square roots of information in the same format, which cannot be
 ///   detected.
 /// - The scale column of RST3 edges is the inverse of edge.scale. With 28 numbers of information,
 /// the

@@ -25,6 +25,8 @@ constexpr std::array kPoseTags{
     PoseTag{"EDGE_RST3:QUAT",
             PoseLayout::quaternion_and_scale,
             "32 or 39: EDGE_RST3:QUAT i j x y z qx qy qz qw scale and 21 or 28 of information"},
+    PoseTag{"VERTEX2", PoseLayout::se2, "5: VERTEX2 id x y yaw"},
+    PoseTag{"EDGE2", PoseLayout::se2, "12: EDGE2 i j x y yaw and 6 of information"},
     PoseTag{"VERTEX3", PoseLayout::euler, "8: VERTEX3 id x y z roll pitch yaw"},
     PoseTag{"EDGE3", PoseLayout::euler, "30: EDGE3 i j x y z roll pitch yaw and 21 of information"},
 };
@@ -104,7 +106,7 @@ class Record {
   Matrix6 information() {
     switch (tag_.pose) {
       case PoseLayout::se2:
-        return lift_planar(upper<3>());
+        return lift_planar(tag_.word == "EDGE2" ? definite<3>(toro_planar()) : upper<3>());
       case PoseLayout::euler:
         return upper<6>();
       case PoseLayout::quaternion:
@@ -144,6 +146,29 @@ class Record {
       for (int j = i; j < N; ++j) out(i, j) = out(j, i) = number("information");
     }
     end();
+    return definite<N>(out);
+  }
+
+  /// Parses TORO's order of a planar information: xx xy yy, yaw yaw, x yaw, y yaw. Throws
+  /// InputError if only the order row by row is positive definite, as iSAM writes square roots.
+  Matrix3 toro_planar() {
+    std::array<double, 6> given{};
+    for (double& each : given) each = number("information");
+    end();
+    const auto& [a, b, c, d, e, f] = given;
+    const Matrix3 out{{a, b, e}, {b, c, f}, {e, f, d}};
+    const Matrix3 by_rows{{a, b, c}, {b, d, e}, {c, e, f}};
+    const bool is_any = rules_.indefinite == IndefiniteInformation::project;
+    if (is_any || is_positive_definite(out) || !is_positive_definite(by_rows)) return out;
+    throw file_.error(line_.number,
+                      "information is positive definite row by row, but not in the order of TORO, "
+                      "xx xy yy, yaw yaw, x yaw, y yaw: expected tag EDGE_SE2 for rows (iSAM "
+                      "writes square roots of information with tag EDGE2)");
+  }
+
+  /// Throws InputError if the information cannot be made positive definite.
+  template <int N>
+  Eigen::Matrix<double, N, N> definite(const Eigen::Matrix<double, N, N>& out) {
     if (is_positive_definite(out)) return out;
     if constexpr (N < 7) {
       is_altered_ = true;
