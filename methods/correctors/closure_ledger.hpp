@@ -92,7 +92,7 @@ struct LedgerSettings {
 };
 
 /// Returns why closure_ledger() does not apply, or an empty text: edges that change the scale,
-/// keyframes that are not connected, no closures.
+/// keyframes that are not connected, neither closures nor anchors.
 std::string why_no_ledger(const Problem& problem);
 
 /// Judges the closures (judge_closures()) and computes the ledger, with the stated covariances.
@@ -102,7 +102,8 @@ std::string why_no_ledger(const Problem& problem);
 /// of others by the solution itself. `cost_drop` and `moves` compare the solution with all closures
 /// with that without the closure: solved for the first suspects if closures contradict each other,
 /// else to first order. Anchors take part in all solutions, and not in the judgement unless it uses
-/// them. Errors that all closures share are not visible. Requires why_no_ledger() to be empty.
+/// them. Without closures the anchors are judged alone. Errors that all closures share are not
+/// visible. Requires why_no_ledger() to be empty.
 /// Throws std::runtime_error if a solution fails. A few factorisations of the graph, and one for
 /// each named suspect.
 ClosureLedger closure_ledger(const Problem& problem, const LedgerSettings& settings = {});

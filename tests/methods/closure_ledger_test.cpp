@@ -246,6 +246,8 @@ TEST(ClosureLedger, DeclinesWhatItDoesNotCover) {
   EXPECT_EQ(why_no_ledger(problem), "edges change the scale, which the ledger does not estimate");
   problem.closures.clear();
   EXPECT_EQ(why_no_ledger(problem), "the problem has no loop closures");
+  problem.anchors.push_back({3});
+  EXPECT_EQ(why_no_ledger(problem), "");
   problem = rounds(1);
   problem.odometry.erase(problem.odometry.begin() + 170);
   EXPECT_TRUE(why_no_ledger(problem).starts_with("the graph is not connected"))

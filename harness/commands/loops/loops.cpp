@@ -42,7 +42,7 @@ LoopsResult loops(Problem problem,
   } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw InputError(out.estimate + ": its closures cannot be checked: " + error.what());
+    throw InputError(out.estimate + ": its measurements cannot be checked: " + error.what());
   }
   return out;
 }
@@ -62,7 +62,9 @@ void write_repaired(const LoopsResult& result,
   const auto fail = [&](const std::string& why) {
     return InputError(file.string() + " is not written: " + why);
   };
-  if (!ledger.judgement || !ledger.judgement->is_decided()) {
+  if (ledger.rows.empty()) {
+    if (!ledger.anchors->is_decided) throw fail("which anchors are right is not decided");
+  } else if (!ledger.judgement || !ledger.judgement->is_decided()) {
     throw fail("which closures are right is not decided");
   }
   const bool has_anchors = !result.problem.anchors.empty();
@@ -92,8 +94,10 @@ void write_repaired(const LoopsResult& result,
     if (std::string_view(judgement(result, rank)) == "agrees") continue;
     out.comment("dropped: " + closure_name(result.problem, ledger.suspects[rank]));
   }
-  for (const methods::FreedStep& step : ledger.judgement->steps) {
-    out.comment("freed: " + step_name(result.problem, step.from));
+  if (ledger.judgement) {
+    for (const methods::FreedStep& step : ledger.judgement->steps) {
+      out.comment("freed: " + step_name(result.problem, step.from));
+    }
   }
   out.save(file);
 }

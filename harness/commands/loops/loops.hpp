@@ -23,8 +23,11 @@ LoopsResult loops(Problem problem,
 /// InputError if the solver finds none.
 methods::NextClosures next_closures(const LoopsResult& result);
 
+/// "200 keyframes, 8 closures, 6 places"; without closures the anchors.
+std::string counts_text(const LoopsResult& result);
+
 /// The verdict and a table of the closures, the most suspicious first, at most `rows`, in 80
-/// columns; then `next`. Sentences are lines without a limit.
+/// columns; then `next`. Sentences are lines without a limit. Without closures the verdict alone.
 std::string text(const LoopsResult& result,
                  std::size_t rows,
                  const std::optional<methods::NextClosures>& next = {});
@@ -38,8 +41,8 @@ std::string json(const LoopsResult& result, const std::optional<methods::NextClo
 /// Writes the graph with the closures that agree and with freed steps, whose information is lower;
 /// comments name them and the closures and anchors that were dropped. Lines of priors are those of
 /// the input, except those of dropped anchors.
-/// Throws InputError if nothing is decided, or if there are anchors of another file, and if the
-/// file cannot be written.
+/// Throws InputError if nothing is decided (about the anchors, without closures), or if there are
+/// anchors of another file, and if the file cannot be written.
 void write_repaired(const LoopsResult& result,
                     const Provenance& provenance,
                     const std::filesystem::path& file);

@@ -11,7 +11,6 @@
 #include "harness/answers/report/page_template.hpp"
 #include "harness/answers/report/sections.hpp"
 #include "harness/commands/loops/loops.hpp"
-#include "harness/sweep/text/counted.hpp"
 #include "harness/sweep/text/hash.hpp"
 #include "methods/correctors/consensus.hpp"
 
@@ -107,6 +106,7 @@ std::pair<Trajectory, std::string> corrected_keyframes(const LoopsResult& result
       {}, found ? std::make_shared<methods::ClosureJudgement>(*found) : nullptr, false);
   if (std::string why = method.why_declined(result.problem); !why.empty()) return {{}, why};
   const bool has_anchors = result.ledger.anchors && result.ledger.anchors->is_decided;
+  if (!has_anchors && !found) return {{}, "which anchors are right is not decided"};
   if (!has_anchors && !found->is_decided()) return {{}, "which closures are right is not decided"};
   try {
     methods::Report unused;
@@ -134,10 +134,6 @@ std::string maps(const LoopsResult& result) {
 }  // namespace
 
 std::string loops_page(const LoopsResult& result) {
-  const std::string counts = fmt::format("{}, {}, {}",
-                                         counted(result.problem.keyframes.size(), "keyframe"),
-                                         counted(result.ledger.rows.size(), "closure"),
-                                         counted(result.ledger.places, "place"));
   std::string tables;
   if (result.ledger.judgement) tables += page_section(steps_table(result));
   if (result.ledger.anchors) tables += page_section(anchors_table(result));
@@ -149,7 +145,7 @@ std::string loops_page(const LoopsResult& result) {
                 {{"title", html_text(title)},
                  {"nonce", hex(hash_of(title + verdict + tables))},
                  {"style", "\n" + asset_text("page/report.css") + "\n"},
-                 {"counts", html_text(counts)},
+                 {"counts", html_text(counts_text(result))},
                  {"verdict", html_text(verdict)},
                  {"maps", maps(result)},
                  {"tables", tables}});

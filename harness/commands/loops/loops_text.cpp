@@ -121,19 +121,27 @@ std::string next_text(const LoopsResult& result, const methods::NextClosures& ne
 
 }  // namespace
 
+std::string counts_text(const LoopsResult& result) {
+  const ClosureLedger& ledger = result.ledger;
+  const std::string keyframes = counted(result.problem.keyframes.size(), "keyframe");
+  if (ledger.rows.empty()) {
+    return keyframes + ", " + counted(result.problem.anchors.size(), "anchor");
+  }
+  return keyframes + ", " + counted(ledger.rows.size(), "closure") + ", " +
+         counted(ledger.places, "place");
+}
+
 std::string text(const LoopsResult& result,
                  std::size_t rows,
                  const std::optional<methods::NextClosures>& next) {
   const ClosureLedger& ledger = result.ledger;
   const std::size_t shown = std::min(rows, ledger.suspects.size());
   const bool is_wide = has_wide_names(result, shown);
-  std::string out = fmt::format("{}: {}, {}, {}\n\n{}\n\n",
-                                result.estimate,
-                                counted(result.problem.keyframes.size(), "keyframe"),
-                                counted(ledger.rows.size(), "closure"),
-                                counted(ledger.places, "place"),
-                                verdict_text(result));
+  std::string out =
+      fmt::format("{}: {}\n\n{}\n", result.estimate, counts_text(result), verdict_text(result));
+  if (ledger.rows.empty()) return out + (next ? "\n" + next_text(result, *next) : "");
   out +=
+      "\n"
       "                            odometry          other places        without it\n"
       "closure       judgement     [m] [deg]      [m] [deg]  [sd]   moves     chi2\n";
   for (std::size_t rank = 0; rank < shown; ++rank) out += row_text(result, rank, is_wide);

@@ -185,6 +185,7 @@ std::string closures_verdict(const LoopsResult& result) {
   return all + places_text(ledger) + unpredicted_text(result);
 }
 
+/// Sentences that begin with a blank.
 std::string anchors_verdict(const LoopsResult& result) {
   const auto& anchors = result.ledger.anchors;
   if (!anchors) return "";
@@ -203,10 +204,15 @@ std::string anchors_verdict(const LoopsResult& result) {
 bool is_contradicted(const LoopsResult& result) {
   const auto& anchors = result.ledger.anchors;
   return methods::is_contradicted(result.ledger.verdict) ||
-         (anchors && (!anchors->is_decided || anchors->agreeing < anchors->anchors.size()));
+         (anchors &&
+          (!anchors->is_decided || anchors->run || anchors->agreeing < anchors->anchors.size()));
 }
 
 std::string verdict_text(const LoopsResult& result) {
+  if (result.ledger.rows.empty()) {
+    return "There are no closures: anchors and odometry check each other." +
+           anchors_verdict(result);
+  }
   return closures_verdict(result) + anchors_verdict(result);
 }
 

@@ -14,7 +14,9 @@ namespace loopbench::methods::consensus {
 std::string anchors_text(const Problem& problem, const AnchorJudgement& found);
 
 /// A motion that the anchors that agree share against the keyframes, where it is the larger part of
-/// their errors: it is followed, because their frames are often different. Else empty.
+/// their errors: it is followed, because their frames are often different. Where a shift cannot be
+/// told from an error of the odometry (a run at the begin or the end; anchors on a line, which hold
+/// the first keyframe): both. Else empty.
 std::string datum_shift_text(const Problem& problem, const AnchorJudgement& found);
 
 }  // namespace loopbench::methods::consensus

@@ -46,6 +46,11 @@ class LedgerBuilder {
       : settings_(settings), problem_(with_bounded_stiffness(problem)) {}
 
   ClosureLedger run() {
+    if (problem_.closures.empty()) {
+      out_.why_unknown = "the problem has no loop closures";
+      out_.anchors = use_agreeing_anchors();
+      return std::move(out_);
+    }
     const OdometryRuns runs(problem_);
     const auto odometry = odometry_errors<G>(problem_, runs);
     for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
