@@ -1,6 +1,7 @@
 // Error rates of `consensus` and other correctors on chains with planted closures.
-// Usage: consensus_rates DATA HALF METHODS [PLANT]
-// HALF: 0 design, 1 held out; METHODS: a,b,c; PLANT: a part of the names of plants, all by default
+// Usage: consensus_rates DATA HALF METHODS [PLANT [DRAWS]]
+// HALF: 0 design, 1 held out; METHODS: a,b,c; PLANT: a part of the names of plants, all by default;
+// DRAWS: of each problem, 1 by default. step_known to step_share: see step_oracle.hpp
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -12,6 +13,7 @@
 #include "methods/correctors/consensus/judgement.hpp"
 #include "methods/method.hpp"
 #include "tests/studies/planted_problems.hpp"
+#include "tests/studies/step_oracle.hpp"
 
 namespace loopbench {
 namespace {
@@ -75,6 +77,18 @@ std::string accused(const Problem& problem) {
   return out;
 }
 
+/// What an oracle sees of the wrong step: its log odds with known and with fitted factors, the most
+/// probable step, and the share of the wrong one; empty without a wrong step.
+std::string seen_by_oracle(const TrueChain& chain, const PlantedProblem& of) {
+  if (!of.wrong_step) return ",,,";
+  const StepOracle seen = step_oracle(chain, of);
+  return fmt::format("{:.4g},{:.4g},{},{:.3g}",
+                     seen.with_known_factors,
+                     seen.with_fitted_factors,
+                     seen.best_step,
+                     seen.share);
+}
+
 /// The true closures, steps and deviations.
 double oracle(const TrueChain& chain, const PlantedProblem& of) {
   PlantedProblem known = of;
@@ -90,16 +104,61 @@ double oracle(const TrueChain& chain, const PlantedProblem& of) {
   return run("pose_graph", known, chain).ate;
 }
 
+/// One row for each factor on the odometry's deviations and each method.
+void print_rows(const TrueChain& chain,
+                Plant plant,
+                int draw,
+                const std::vector<std::string>& names) {
+  std::string seen;  // it does not depend on the factor
+  for (const double odometry : {0.1, 1.0, 10.0}) {
+    const PlantedProblem problem = planted(chain, plant, odometry, draw);
+    const auto falses = std::ranges::count(problem.is_false, true);
+    const double raw = absolute_error(problem.problem.keyframes, chain.truth);
+    const double known = oracle(chain, problem);
+    if (seen.empty()) seen = seen_by_oracle(chain, problem);
+    for (const std::string& name : names) {
+      const Run done = run(name, problem, chain);
+      fmt::print(
+          "{},{},{},{},{:.5g},{:.5g},{:.5g},{},{},{},{},{:.4f},{},{:.3g},{:.3g},{:.3g},"
+          "{:.3g},{:.3g},{},{},{},{}\n",
+          chain.name,
+          name_of(plant),
+          odometry,
+          name,
+          done.ate,
+          raw,
+          known,
+          std::ssize(problem.is_false) - falses,
+          falses,
+          done.kept_false,
+          done.dropped_true,
+          done.seconds,
+          count_of(done.report, "decided"),
+          count_of(done.report, "factor_t"),
+          count_of(done.report, "factor_r"),
+          count_of(done.report, "factor_closures"),
+          count_of(done.report, "evidence"),
+          count_of(done.report, "rival_evidence"),
+          problem.wrong_step ? std::to_string(*problem.wrong_step) : "",
+          name == "consensus" ? accused(problem.problem) : "",
+          draw,
+          seen);
+    }
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 }  // namespace loopbench
 
 int main(int argc, char** argv) {
   using namespace loopbench;
-  if (argc != 4 && argc != 5) {
-    fmt::print(stderr, "usage: consensus_rates DATA HALF METHODS [PLANT]\n");
+  if (argc < 4 || argc > 6) {
+    fmt::print(stderr, "usage: consensus_rates DATA HALF METHODS [PLANT [DRAWS]]\n");
     return 2;
   }
   const int half = std::atoi(argv[2]);
+  const int draws = argc == 6 ? std::atoi(argv[5]) : 1;
   std::vector<std::string> names;
   std::istringstream given(argv[3]);
   for (std::string name; std::getline(given, name, ',');) names.push_back(name);
@@ -107,47 +166,18 @@ int main(int argc, char** argv) {
   for (TrueChain& each : simulated_chains(1, 12)) chains.push_back(std::move(each));
   fmt::print(
       "chain,plant,odometry,method,ate,raw,oracle,true,false,kept_false,dropped_true,"
-      "seconds,decided,factor_t,factor_r,factor_closures,evidence,rival,wrong_step,accused\n");
+      "seconds,decided,factor_t,factor_r,factor_closures,evidence,rival,wrong_step,accused,"
+      "draw,step_known,step_fitted,step_best,step_share\n");
   for (std::size_t c = 0; c < chains.size(); ++c) {
     if (static_cast<int>(c % 2) != half) continue;
     const TrueChain with_bias = biased(chains[c]);
     for (int plant = 0; plant <= static_cast<int>(kLastPlant); ++plant) {
-      if (argc == 5 && name_of(static_cast<Plant>(plant)).find(argv[4]) == std::string::npos) {
+      if (argc > 4 && name_of(static_cast<Plant>(plant)).find(argv[4]) == std::string::npos) {
         continue;
       }
       const TrueChain& chain = is_biased(static_cast<Plant>(plant)) ? with_bias : chains[c];
-      for (const double odometry : {0.1, 1.0, 10.0}) {
-        const PlantedProblem problem = planted(chain, static_cast<Plant>(plant), odometry, 1);
-        const auto falses = std::ranges::count(problem.is_false, true);
-        const double raw = absolute_error(problem.problem.keyframes, chain.truth);
-        const double known = oracle(chain, problem);
-        for (const std::string& name : names) {
-          const Run done = run(name, problem, chain);
-          fmt::print(
-              "{},{},{},{},{:.5g},{:.5g},{:.5g},{},{},{},{},{:.4f},{},{:.3g},{:.3g},{:.3g},"
-              "{:.3g},{:.3g},{},{}\n",
-              chain.name,
-              name_of(static_cast<Plant>(plant)),
-              odometry,
-              name,
-              done.ate,
-              raw,
-              known,
-              std::ssize(problem.is_false) - falses,
-              falses,
-              done.kept_false,
-              done.dropped_true,
-              done.seconds,
-              count_of(done.report, "decided"),
-              count_of(done.report, "factor_t"),
-              count_of(done.report, "factor_r"),
-              count_of(done.report, "factor_closures"),
-              count_of(done.report, "evidence"),
-              count_of(done.report, "rival_evidence"),
-              problem.wrong_step ? std::to_string(*problem.wrong_step) : "",
-              name == "consensus" ? accused(problem.problem) : "");
-        }
-        std::fflush(stdout);
+      for (int draw = 1; draw <= draws; ++draw) {
+        print_rows(chain, static_cast<Plant>(plant), draw, names);
       }
     }
   }

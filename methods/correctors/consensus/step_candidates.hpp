@@ -154,7 +154,7 @@ template <class G>
 std::vector<StepCandidate<G>> step_candidates(const ReducedChain<G>& chain,
                                               const LogFactors& factors,
                                               double score) {
-  constexpr double kLeastShare = 0.7;  // of the score without it, which estimates fall short of
+  constexpr double kLeastShare = 0.4;  // of the score without it, which estimates fall short of
   const CycleModel<G> open(chain, chain.poses);
   std::vector<std::size_t> ends;
   for (const ChainLoop<G>& loop : chain.loops) {

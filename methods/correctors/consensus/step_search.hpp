@@ -100,11 +100,12 @@ class StepSearch {
   /// False closures of one place that agree with each other would agree with a wrong step, too, and
   /// so would any drift that all loops share. A step is therefore freed if it is unlike its
   /// neighbours, or if it makes loops of two places agree that did not before, or if loops of two
-  /// places span it and others show that the rest of the chain drifts less. It may not cost as many
-  /// loops as it makes agree.
+  /// places span it and others show that the rest of the chain drifts less, or the evidence is many
+  /// times what is needed. It may not cost as many loops as it makes agree.
   bool is_supported(const StepExplanation<G>& with, const StepExplanation<G>& without) const {
     constexpr double kLogUnlike = -1.6094379124341003;  // a fifth of all weight
     constexpr std::size_t kLeast = 2;
+    constexpr double kTimesNeeded = 4.0;
     if (!with.found) return false;
     const std::size_t step = with.last;
     std::vector<std::size_t> spanning, rescued;
@@ -121,7 +122,9 @@ class StepSearch {
     }
     if (with.log_weight > kLogUnlike) return spanning.size() >= kLeast;
     if (rescued.size() >= kLeast) return places(rescued) >= kLeast;
-    return places(spanning) >= kLeast && with.found->kept.size() >= spanning.size() + kLeast;
+    const bool is_clear = with.score() > without.score() + kTimesNeeded * log_needed_;
+    const bool have_others = with.found->kept.size() >= spanning.size() + kLeast;
+    return places(spanning) >= kLeast && (have_others || is_clear);
   }
 
   static bool contains(const std::vector<std::size_t>& all, std::size_t one) {
