@@ -13,6 +13,7 @@
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/chi_squared.hpp"
 #include "methods/correctors/looped_chain.hpp"
+#include "methods/correctors/pose_graph.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -103,6 +104,22 @@ Trajectory correct_rigid(const Dual::Options& options, const Problem& stated, Re
   return solved.keyframes();
 }
 
+double cost_of(const AnchoredChain& at) {
+  return LoopedChain(at.problem, stated_noise_model(at.problem), at.points).cost();
+}
+
+/// The solution of pose_graph. From the keyframes, the equations of the loops can end in another
+/// minimum where the chain has drifted by a quarter of a rotation.
+Trajectory graph_solution(const Problem& problem) {
+  Report unused;
+  try {
+    return PoseGraphOptimizer({.start = PoseGraphOptimizer::Start::chordal})
+        .correct(problem, unused);
+  } catch (const std::runtime_error&) {  // no usable solution
+    return problem.keyframes;
+  }
+}
+
 Trajectory correct_anchored(const Dual::Options& options, const Problem& stated, Report& report) {
   constexpr int kMaxRounds = 100;
   constexpr double kAtRest = 1e-10;  // of the first pose [rad], and of the chain's size [m]
@@ -113,6 +130,10 @@ Trajectory correct_anchored(const Dual::Options& options, const Problem& stated,
   for (StampedPose& each : problem.keyframes) {
     each.world_from_body = normalized(motion * each.world_from_body);
   }
+  report.count("chi2_before", 2.0 * cost_of(AnchoredChain(problem, used)));
+  if (options.start == Dual::Start::automatic) {
+    problem.keyframes = report.time("initial values", [&] { return graph_solution(stated); });
+  }
   double chi2 = 0.0;
   int iterations = 0;
   bool is_at_rest = false;
@@ -120,7 +141,6 @@ Trajectory correct_anchored(const Dual::Options& options, const Problem& stated,
     const AnchoredChain anchored(problem, used);
     LoopedChain chain(anchored.problem, stated_noise_model(anchored.problem), anchored.points);
     if (!std::isfinite(chain.cost())) throw std::runtime_error("dual: the cost is not finite");
-    if (round == 0) report.count("chi2_before", 2.0 * chain.cost());
     iterations += chain.minimise(options.max_iterations, options.tolerance);
     Trajectory solved = anchored.without_front(chain.keyframes());
     const Pose& before = problem.keyframes.front().world_from_body;
@@ -154,7 +174,9 @@ std::string Dual::why_declined(const Problem& stated) const {
   if (is_calibrated(options_)) {
     if (std::string why = why_not_calibrated(problem); !why.empty()) return why;
   }
-  return loops_fault(problem, options_.max_closures);
+  const auto limit = static_cast<std::size_t>(options_.max_closures);
+  const bool is_above = problem.closures.size() + problem.anchors.size() > limit;
+  return loops_fault(problem, options_.max_closures) + (is_above ? ": use pose_graph" : "");
 }
 
 Trajectory Dual::correct(const Problem& stated, Report& report) const {

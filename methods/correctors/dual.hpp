@@ -28,7 +28,8 @@ namespace loopbench::methods {
 /// (calibrated.hpp).
 ///
 /// Anchors are loops from a fixed world in which only a position is measured: three rows of the
-/// same equations. Their start is the keyframes, aligned to the anchors, alone.
+/// same equations. With them the equations start from the solution of `pose_graph`, so that both
+/// end in one minimum; with start `keyframes` from the keyframes, aligned to the anchors.
 ///
 /// Odometry edges must join all neighbouring keyframes. Full information matrices are used.
 /// Source: generalised least squares with few constraints.
@@ -89,7 +90,8 @@ void fields(Dual::Options& o, Visit visit) {
         Between{1, 2000});
   visit("start",
         o.start,
-        "initial values; auto: keyframes, then chordal relaxation if chi2 is implausibly large");
+        "initial values; auto: keyframes, then chordal relaxation if chi2 is implausibly large, or "
+        "with anchors the solution of pose_graph");
   calibration_fields(o, visit);
   visit("use", o.use, "measurements that are used, to compare what closures and anchors add");
   visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
 #include "datasets/derive/closures.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
@@ -89,6 +94,17 @@ Problem anchored(Problem problem, const Trajectory& truth) {
   return problem;
 }
 
+/// Rounds on a circle of 5 m, forty keyframes each.
+Trajectory rounds(std::size_t count) {
+  Trajectory out;
+  for (std::size_t i = 0; i <= 40 * count; ++i) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / 40.0;
+    out.push_back({0.5 * static_cast<double>(i),
+                   turned_about_z(angle, 5.0 * Vector3(std::cos(angle), std::sin(angle), 0.0))});
+  }
+  return out;
+}
+
 TEST(Anchors, DualAndPoseGraphFindTheSameMinimum) {
   for (const Problem& base : {hand_held(), planar()}) {
     // In space, the frame of the estimate is another one.
@@ -105,6 +121,40 @@ TEST(Anchors, DualAndPoseGraphFindTheSameMinimum) {
       EXPECT_LT(count(dual, "iterations"), 60.0);
     }
   }
+}
+
+// Rounds with a yaw drift of 69 or 137 degrees per round: from the aligned keyframes, the equations
+// of the loops can end in a minimum of seven times the cost.
+TEST(Anchors, DualFindsTheMinimumOfPoseGraphAfterMuchDrift) {
+  double largest = 1.0;  // cost of dual from the keyframes over that of pose_graph
+  for (const auto& [count_of_rounds, bias] : {std::pair{2u, 0.06}, {3u, 0.03}, {3u, 0.06}}) {
+    const Trajectory truth = rounds(count_of_rounds);
+    const Pairs loops = count_of_rounds == 2 ? Pairs{{0, 40}, {0, 80}}  //
+                                             : Pairs{{0, 40}, {0, 80}, {0, 120}};
+    Problem problem = drifting(truth, twist(Vector3::Zero(), {0.0, 0.0, bias}), loops);
+    problem.planar = true;
+    for (std::size_t i = 13; i < truth.size(); i += 27) {
+      problem.anchors.push_back(anchor(i, truth[i].world_from_body.translation, 2.5e-3));
+    }
+    Report dual, graph, keyframes;
+    const Trajectory a = corrected<Dual>(problem, {}, &dual);
+    const PoseGraphOptimizer::Options chordal{.start = PoseGraphOptimizer::Start::chordal};
+    expect_close(a, corrected<PoseGraphOptimizer>(problem, chordal, &graph), 1e-6);
+    const double chi2 = count(graph, "chi2");
+    EXPECT_NEAR(count(dual, "chi2"), chi2, 1e-7 * chi2);
+    corrected<Dual>(problem, {.start = Dual::Start::keyframes}, &keyframes);
+    EXPECT_EQ(count(keyframes, "chi2_before"), count(dual, "chi2_before"));
+    largest = std::max(largest, count(keyframes, "chi2") / chi2);
+  }
+  EXPECT_GT(largest, 1.5);
+}
+
+TEST(Anchors, DualNamesPoseGraphAboveItsLimit) {
+  Problem problem = along_x({0.0, 1.0, 2.0});
+  problem.anchors = {anchor(1, {1.0, 0.0, 0.0}, 1.0), anchor(2, {2.0, 0.0, 0.0}, 1.0)};
+  EXPECT_EQ(Dual({.max_closures = 1}).why_declined(problem),
+            "0 closures and 2 anchors exceed max_closures = 1: use pose_graph");
+  EXPECT_EQ(Dual({.max_closures = 2}).why_declined(problem), "");
 }
 
 TEST(Anchors, ExactOnesMoveAPerfectPathToTheirWorld) {
