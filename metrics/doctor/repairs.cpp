@@ -25,6 +25,7 @@ struct Repair {
   PoseChange change;
   bool of_reference = false;
   bool is_lever_arm = false;
+  bool mirrors_poses = false;  ///< positions and rotations alike
 
   void apply(Paired& poses) const {
     for (auto& [stamp, pose] : of_reference ? poses.reference : poses.estimate) pose = change(pose);
@@ -44,7 +45,9 @@ void add_conventions(std::vector<Repair>& to) {
                     0.0,
                     kPenalty * (unusual + (of_reference ? 0.2 : 0.0)),
                     change,
-                    of_reference});
+                    of_reference,
+                    false,
+                    option.starts_with("--mirror")});
     }
   }
 }
@@ -113,6 +116,37 @@ bool spoils_motions(const Agreement& before, const Agreement& after) {
          is_worse(before.turning, after.turning);
 }
 
+/// Whether short motions agree better after a repair.
+bool mends_motions(const Agreement& before, const Agreement& after) {
+  constexpr double kMost = 0.75;
+  return after.displacement < kMost * before.displacement || after.turning < kMost * before.turning;
+}
+
+/// Whether steps and rotations in body frames correlate as they are. Mirrored poses rotate in the
+/// other sense; poses in a plane that drift by a quarter of a rotation can fit better upside down,
+/// which changes no motion in the plane.
+bool have_same_sense(const Paired& poses) {
+  constexpr double kLeastCommon = 0.5;
+  double common[2] = {}, squares[2][2] = {};
+  const std::size_t n = poses.estimate.size(), step = n / 200 + 1;
+  for (std::size_t i = 0; i + step < n; ++i) {
+    const auto motion = [&](const Trajectory& list) {
+      return log_se3(list[i].world_from_body.inverse() * list[i + step].world_from_body);
+    };
+    const Twist a = motion(poses.reference), b = motion(poses.estimate);
+    for (const int part : {0, 1}) {
+      const Vector3 of_a = a.segment<3>(3 * part), of_b = b.segment<3>(3 * part);
+      common[part] += of_a.dot(of_b);
+      squares[part][0] += of_a.squaredNorm();
+      squares[part][1] += of_b.squaredNorm();
+    }
+  }
+  const auto is_alike = [&](int part) {
+    return common[part] > kLeastCommon * std::sqrt(squares[part][0] * squares[part][1]);
+  };
+  return is_alike(0) && is_alike(1);
+}
+
 /// Of positions, if the estimate rotates.
 void add_antenna(std::vector<Repair>& to, const Paired& poses) {
   constexpr double kOfDeviation = 2.1;  // 95 % with the scatter of twenty parts
@@ -156,6 +190,7 @@ std::optional<InputFinding> apply_best_repair(Paired& poses,
   } else if (has_positions_only) {
     add_antenna(candidates, fitted);
   }
+  const bool has_same_sense = before.has_rotations && have_same_sense(poses);
   const Repair* best = nullptr;
   Improvement gained;
   double largest = 0.0;
@@ -166,6 +201,7 @@ std::optional<InputFinding> apply_best_repair(Paired& poses,
     repair.apply(changed);
     const Agreement after = agreement(changed);
     if (spoils_motions(before, after)) continue;
+    if (repair.mirrors_poses && has_same_sense && !mends_motions(before, after)) continue;
     const double gain = before.cost() - after.cost() - repair.penalty;
     if (gain < std::max(largest, repair.is_lever_arm ? kLeastOfLeverArm : kLeastGain)) continue;
     Improvement change = improvement(before, after);

@@ -247,15 +247,19 @@ std::optional<InputFinding> check_rate(const Trajectory& reference, const Trajec
   const double cell = duration(reference) / kCells;
   double factor = 1.0;
   BestOffset best;
-  for (int percent = -kSearched; percent <= kSearched; ++percent) {
-    const double each =
-        duration(reference) / duration(estimate) * (1.0 + 0.01 * static_cast<double>(percent));
-    const SpeedMatch match(reference, estimate, kFewIntervals, cell, reference.front().stamp, each);
+  const auto search = [&](double begin, double each) {
+    const SpeedMatch match(reference, estimate, kFewIntervals, cell, begin, each);
     const BestOffset found = search_offsets(match, -kSearched * cell, kSearched * cell, cell);
-    if (found.score < best.score) continue;
+    if (found.score < best.score) return;
     best = found;
     factor = each;
+  };
+  for (int percent = -kSearched; percent <= kSearched; ++percent) {
+    search(reference.front().stamp,
+           duration(reference) / duration(estimate) * (1.0 + 0.01 * static_cast<double>(percent)));
   }
+  // Half or twice the rate, from the first stamp on: the files can begin and end at other times.
+  for (const double each : {0.5, 2.0}) search(estimate.front().stamp, each);
   if (best.score < kSameCorrelation) return std::nullopt;
   const bool has_indices = has_frame_indices(estimate) && !has_frame_indices(reference);
   return InputFinding{

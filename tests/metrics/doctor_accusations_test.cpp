@@ -106,6 +106,33 @@ TEST(DoctorAccusations, AStraightCorridorIsNotMirrored) {
   }
 }
 
+/// A robot in a plane, whose heading drifts so far that its path fits better upside down.
+TEST(DoctorAccusations, HeadingsThatDriftAreNotMirrored) {
+  for (const double drift : {0.02, 0.04, 0.06, 0.08}) {
+    Trajectory reference{{0.0, {}}}, estimate{{0.0, {}}};
+    for (int i = 1; i < 2000; ++i) {
+      const double t = 0.1 * i, yaw_rate = 0.5 * std::sin(0.2 * t) + 0.4 * std::sin(0.071 * t);
+      const auto step = [&](double rate) {
+        return Pose{exp_so3({0, 0, 0.1 * rate}), {0.1 * (0.5 + 0.2 * std::sin(0.4 * t)), 0, 0}};
+      };
+      reference.push_back({t, normalized(reference.back().world_from_body * step(yaw_rate))});
+      estimate.push_back({t, normalized(estimate.back().world_from_body * step(yaw_rate + drift))});
+    }
+    EXPECT_THAT(faults(reference, estimate), IsEmpty()) << drift;
+  }
+}
+
+/// The reference begins before the estimate, whose stamps are those of every other frame.
+TEST(DoctorAccusations, HalfTheRateIsNoOtherRecording) {
+  for (const double factor : {0.5, 2.0}) {
+    Trajectory estimate = sampled(20);
+    estimate.erase(estimate.begin(), estimate.begin() + 80);
+    const double begin = estimate.front().stamp;
+    for (StampedPose& pose : estimate) pose.stamp = begin + factor * (pose.stamp - begin);
+    EXPECT_THAT(faults(truth(), estimate), ElementsAre(Fault::missing_poses)) << factor;
+  }
+}
+
 /// Stamps of 30 Hz were written after a third of the frames had been dropped at random.
 TEST(DoctorAccusations, DroppedFramesAreNoOtherRecording) {
   std::mt19937 random(5);
