@@ -178,6 +178,13 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
     const Trajectory& run = in.frames.empty() ? in.estimate : in.frames;
     add_anchors(*in.anchors, o.anchors_file, run, o.anchors_max_gap, sequence);
   }
+  if (const std::size_t count = count_without_scale(sequence.problem.closures); count > 0) {
+    sequence.provenance.notes.push_back(
+        fmt::format("{} of {} closures state no scale: around them the runs move by less than the "
+                    "noise of their positions",
+                    count,
+                    sequence.problem.closures.size()));
+  }
   const std::vector<std::size_t> breaks =
       breaks_at_stamps(o.breaks, sequence.problem.keyframes, o.reach.max_diff);
   if (!breaks.empty()) sequence.provenance.notes.push_back(breaks_note(sequence.problem, breaks));

@@ -43,15 +43,24 @@ double path_length_ratio(const Trajectory& keyframes,
                          const Trajectory& run,
                          const InterpolationLimits& reach);
 
+/// Of closures that state no scale [-]: a deviation of its logarithm of 1000.
+inline constexpr double kNoScaleInformation = 1e-6;
+
 /// Converts closures measured in `run` to Sim(3), for an estimate with scale drift (monocular). The
 /// scale at a keyframe is the path-length ratio of run and estimate over ten common keyframes on
-/// either side. Each edge gets the scale of `to` relative to `from`, and its translation is
-/// converted to the scale of `from`. Throws InputError if one of the two trajectories does not move
-/// there. O(n).
+/// either side. Where the path between them is not longer than the noise of the positions (a
+/// similarity has another scale, or one whose 95 % interval is wider than 20 %), it is that of a
+/// similarity over 20 to 160 keyframes. Each edge gets the scale of `to` relative to `from`, and
+/// its translation is converted to the scale of `from`. If no window shows a scale, the edge states
+/// none (scale 1, kNoScaleInformation). Throws InputError if one of the two trajectories does not
+/// move there. O(n + edges).
 std::vector<Edge> with_local_scale(std::vector<Edge> edges,
                                    const Trajectory& keyframes,
                                    const Trajectory& run,
                                    const InterpolationLimits& reach);
+
+/// Number of edges with kNoScaleInformation.
+std::size_t count_without_scale(const std::vector<Edge>& edges);
 
 /// A closure between the first and the last of at least two poses, at the same position up to
 /// `sigma_t` [m], for a body that returned to its start with an unknown rotation. The rotation is
