@@ -15,12 +15,30 @@ void check_disabled(const TrajectoryOptions& o, const Params& given) {
   const bool measured =
       o.closures == ClosureSource::reference || o.closures == ClosureSource::estimate;
   if (!measured) {
-    reject_with_source({"closures.radius",
+    reject_with_source({"closures.rule",
+                        "closures.radius",
                         "closures.angle",
                         "closures.min_gap",
                         "closures.max",
                         "closures.max_interval"},
                        "reference or estimate");
+  }
+  const bool is_view = o.closures_rule == ClosureRule::view;
+  if (!is_view) {
+    reject_disabled(given,
+                    {"closures.view.horizontal",
+                     "closures.view.vertical",
+                     "closures.view.nearest",
+                     "closures.view.farthest",
+                     "closures.view.share",
+                     "closures.view.forward"},
+                    "closures.rule",
+                    "distance",
+                    "view");
+  }
+  if (is_view) {
+    reject_disabled(
+        given, {"closures.radius", "closures.angle"}, "closures.rule", "view", "distance");
   }
   if (o.closures == ClosureSource::none) {
     reject_with_source({"closures.sigma_t", "closures.sigma_r", "closures.max_diff"},
@@ -55,6 +73,9 @@ void check_combination(const TrajectoryOptions& o, const Params& given) {
   require_option(o.closures_scale == ClosureScale::same || o.closures == ClosureSource::estimate,
                  "closures.scale",
                  "local has no effect without another run, expected closures.source = estimate");
+  require_option(o.closures_view.nearest < o.closures_view.farthest,
+                 "closures.view.nearest",
+                 "is not below closures.view.farthest");
   pose_of(o.reference_body);  // throws if it is not a valid pose
   check_disabled(o, given);
 }

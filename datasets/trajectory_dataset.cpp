@@ -17,7 +17,14 @@ namespace {
 constexpr double kMaxScaleRatio = 1.25;
 
 RevisitRule revisit_rule(const TrajectoryOptions& o) {
-  return {o.closures_radius, o.closures_angle * std::numbers::pi / 180.0, o.closures_min_gap};
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  RevisitRule out{o.closures_radius, o.closures_angle * kDegree, o.closures_min_gap};
+  if (o.closures_rule == ClosureRule::view) {
+    const ViewOptions& v = o.closures_view;
+    out.view = View{
+        kDegree * v.horizontal, kDegree * v.vertical, v.nearest, v.farthest, v.share, v.forward};
+  }
+  return out;
 }
 
 std::vector<Edge> in_run(const Trajectory& keyframes,

@@ -21,6 +21,48 @@ inline auto choices(ClosureSource) {
                     std::pair{"estimate", ClosureSource::estimate}};
 }
 
+/// Which keyframes see a place again: by distance and angle of the poses, or by the space in view.
+enum class ClosureRule { distance, view };
+inline auto choices(ClosureRule) {
+  return std::array{std::pair{"distance", ClosureRule::distance},
+                    std::pair{"view", ClosureRule::view}};
+}
+
+inline auto choices(View::Axes) {
+  return std::array{std::pair{"z", View::Axes::z_forward}, std::pair{"x", View::Axes::x_forward}};
+}
+
+/// Field of view [deg] and range [m] of a Kinect.
+struct ViewOptions {
+  double horizontal = 57.0;
+  double vertical = 43.0;
+  double nearest = 0.8;
+  double farthest = 4.0;
+  double share = 0.5;
+  View::Axes forward = View::Axes::z_forward;
+};
+
+template <class Visit>
+void view_fields(ViewOptions& o, Visit visit) {
+  visit("closures.view.horizontal",
+        o.horizontal,
+        "horizontal field of view of the sensor [deg]",
+        Between{1.0, 360.0});
+  visit("closures.view.vertical",
+        o.vertical,
+        "vertical field of view of the sensor [deg]",
+        Between{1.0, 180.0});
+  visit("closures.view.nearest", o.nearest, "least range of the sensor [m]", Between{0.0, 1e6});
+  visit("closures.view.farthest", o.farthest, "largest range of the sensor [m]", GreaterThan{0.0});
+  visit("closures.view.share",
+        o.share,
+        "least share of the view, by volume, that a revisit sees again [-]",
+        Between{0.01, 1.0});
+  visit("closures.view.forward",
+        o.forward,
+        "axis of the body along which the sensor looks; z: camera (y down); x: vehicle (z up)");
+}
+
 enum class ClosureScale { same, local };
 inline auto choices(ClosureScale) {
   return std::array{std::pair{"same", ClosureScale::same}, std::pair{"local", ClosureScale::local}};
@@ -49,8 +91,10 @@ struct TrajectoryOptions {
   std::string breaks;
   ClosureSource closures = ClosureSource::none;
   std::string closures_file;
+  ClosureRule closures_rule = ClosureRule::distance;
   double closures_radius = 0.5;
   double closures_angle = 30.0;  ///< [deg]
+  ViewOptions closures_view;
   double closures_min_gap = 5.0;
   std::int64_t closures_max = 20;
   ClosureScale closures_scale = ClosureScale::same;
@@ -138,6 +182,10 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("closures.file",
         o.closures_file,
         "closure file, g2o graph of the poses (.g2o), or estimated trajectory of the other run");
+  visit("closures.rule",
+        o.closures_rule,
+        "which keyframes see a place again; distance: at most closures.radius and closures.angle "
+        "apart; view: they share closures.view.share of the sensor's field of view");
   visit("closures.radius",
         o.closures_radius,
         "maximum distance between the two poses of a revisit [m]",
@@ -146,6 +194,7 @@ void fields(TrajectoryOptions& o, Visit visit) {
         o.closures_angle,
         "maximum rotation angle between the two poses of a revisit [deg]",
         Between{0.0, 180.0});
+  view_fields(o.closures_view, visit);
   visit("closures.min_gap",
         o.closures_min_gap,
         "minimum time between the two poses of a revisit [s]",

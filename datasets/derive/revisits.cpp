@@ -24,31 +24,34 @@ struct CellHash {
   }
 };
 
+constexpr std::size_t kFewRecent = 64;  // enough for several slow passes
+
 /// The latest poses in one grid cell. Their number is bounded so that the search stays linear for a
 /// body at rest.
 class RecentPoses {
  public:
-  void add(std::size_t index) {
-    if (indices_.size() < kCapacity) {
+  void add(std::size_t index, std::size_t capacity) {
+    if (indices_.size() < capacity) {
       indices_.push_back(index);
     } else {
-      indices_[next_++ % kCapacity] = index;
+      indices_[next_++ % capacity] = index;
     }
   }
   const std::vector<std::size_t>& indices() const { return indices_; }
 
  private:
-  static constexpr std::size_t kCapacity = 64;  // enough for several slow passes
-
   std::vector<std::size_t> indices_;
   std::size_t next_ = 0;
 };
 
 class Grid {
  public:
-  explicit Grid(double size) : size_(size) {}
+  /// `capacity`: of a cell.
+  Grid(double size, std::size_t capacity) : size_(size), capacity_(capacity) {}
 
-  void add(const Vector3& point, std::size_t index) { cells_[cell_of(point)].add(index); }
+  void add(const Vector3& point, std::size_t index) {
+    cells_[cell_of(point)].add(index, capacity_);
+  }
 
   /// Calls visit(index) for every point in the 27 cells around `point`.
   template <class Visit>
@@ -75,6 +78,7 @@ class Grid {
   }
 
   double size_;
+  std::size_t capacity_;
   std::unordered_map<Cell, RecentPoses, CellHash> cells_;
 };
 
@@ -82,7 +86,14 @@ class Grid {
 
 std::vector<Revisit> find_revisits(const Trajectory& poses, const RevisitRule& rule) {
   std::vector<Revisit> out;
-  Grid grid(rule.radius);
+  const double radius = rule.view ? rule.view->farthest : rule.radius;
+  Grid grid(radius, rule.view ? poses.size() : kFewRecent);
+  std::optional<SharedView> view;
+  if (rule.view) view.emplace(*rule.view);
+  const auto is_alike = [&](const Pose& earlier, const Pose& current) {
+    if (view) return view->is_seen_again(current.inverse() * earlier);
+    return angle_between(earlier.rotation, current.rotation) <= rule.angle;
+  };
   std::size_t next_old = 0;  // earlier poses are older than min_gap and in the grid
   for (std::size_t to = 0; to < poses.size(); ++to) {
     const Pose& current = poses[to].world_from_body;
@@ -94,8 +105,8 @@ std::vector<Revisit> find_revisits(const Trajectory& poses, const RevisitRule& r
     grid.near(current.translation, [&](std::size_t i) {
       const Pose& earlier = poses[i].world_from_body;
       const double distance = (earlier.translation - current.translation).norm();
-      if (distance > rule.radius || distance > nearest || (distance == nearest && i > from)) return;
-      if (angle_between(earlier.rotation, current.rotation) > rule.angle) return;
+      if (distance > radius || distance > nearest || (distance == nearest && i > from)) return;
+      if (!is_alike(earlier, current)) return;
       nearest = distance;
       from = i;
     });

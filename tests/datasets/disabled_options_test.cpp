@@ -28,6 +28,12 @@ Params with(Params base, const std::string& name, const Param& value) {
 const Params kFile{
     {"estimate", "a.txt"}, {"closures.source", "file"}, {"closures.file", "loops.txt"}};
 const Params kNone{{"estimate", "a.txt"}, {"reference", "b.txt"}};
+const Params kRuns{
+    {"estimate", "a.txt"}, {"closures.source", "estimate"}, {"closures.file", "b.txt"}};
+const Params kViews{{"estimate", "a.txt"},
+                    {"closures.source", "estimate"},
+                    {"closures.file", "b.txt"},
+                    {"closures.rule", "view"}};
 const Params kAlone{{"estimate", "a.txt"}};
 const Params kGraph{{"path", "a.g2o"}};
 const Params kNoEdges{{"path", "a.g2o"}, {"closures.source", "none"}};
@@ -47,6 +53,10 @@ TEST(DisabledOptions, AreRejectedWithTheOptionThatDisablesThem) {
            {"trajectory", kFile, "closures.radius", 3.0, "closures.source = file"},
            {"trajectory", kFile, "closures.angle", 3.0, "closures.source = file"},
            {"trajectory", kFile, "closures.min_gap", 3.0, "closures.source = file"},
+           {"trajectory", kFile, "closures.rule", "view", "closures.source = file"},
+           {"trajectory", kRuns, "closures.view.share", 0.5, "closures.rule = distance"},
+           {"trajectory", kViews, "closures.radius", 0.5, "closures.rule = view"},
+           {"trajectory", kViews, "closures.angle", 30.0, "closures.rule = view"},
            {"trajectory", kFile, "closures.max_interval", 3.0, "closures.source = file"},
            {"trajectory", kNone, "closures.file", "loops.txt", "closures.source = none"},
            {"trajectory", kNone, "closures.radius", 1.0, "closures.source = none"},
@@ -73,6 +83,10 @@ TEST(DisabledOptions, OptionsThatHaveAnEffectAreAccepted) {
   EXPECT_THAT(refusal("trajectory", with(kFile, "closures.sigma_t", 0.1)), IsEmpty());
   EXPECT_THAT(refusal("trajectory", with(kFile, "closures.max_diff", 0.1)), IsEmpty());
   EXPECT_THAT(refusal("trajectory", with(kNone, "false_closures.share", 0.0)), IsEmpty());
+  EXPECT_THAT(refusal("trajectory", with(kRuns, "closures.radius", 1.0)), IsEmpty());
+  EXPECT_THAT(refusal("trajectory", with(kViews, "closures.view.farthest", 9.0)), IsEmpty());
+  EXPECT_THAT(refusal("trajectory", with(kViews, "closures.view.nearest", 4.0)),
+              HasSubstr("is not below closures.view.farthest"));
   const Params every = with(kAlone, "keyframes.rule", "every");
   EXPECT_THAT(refusal("trajectory", with(every, "keyframes.value", 5.0)), IsEmpty());
 }

@@ -60,10 +60,18 @@ std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
   return fields.hashed();
 }
 
-/// All options of the dataset of a cell, with the seed of its repeat.
+/// All options of the dataset of a cell, with the seed of its repeat. Those of views are left out
+/// where they have no effect, so that baselines that do not know them fit.
 Params options_of(const Cell& cell, const Sweep& sweep, const Catalogue& catalogue) {
   const DatasetChoice& choice = sweep.datasets[cell.dataset];
-  return full_options(choice, find_dataset(catalogue, choice.dataset.name), cell.repeat);
+  Params out = full_options(choice, find_dataset(catalogue, choice.dataset.name), cell.repeat);
+  const auto rule = out.find("closures.rule");
+  if (rule != out.end() && rule->second == Param("distance")) {
+    std::erase_if(out, [](const auto& option) {
+      return option.first == "closures.rule" || option.first.starts_with("closures.view.");
+    });
+  }
+  return out;
 }
 
 }  // namespace
