@@ -7,6 +7,7 @@
 #include "harness/sweep/catalogue/catalogue.hpp"
 #include "harness/sweep/catalogue/load_sequence.hpp"
 #include "harness/sweep/config/read_sweep.hpp"
+#include "harness/sweep/run/cell_keys.hpp"
 #include "harness/sweep/run/summarise_sequence.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -17,6 +18,7 @@ using namespace harness;
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 /// The sequences of a sweep over these datasets, with files of the folder.
@@ -100,6 +102,26 @@ TEST_F(SequenceContent, OfALongSequenceIsStable) {
   EXPECT_EQ(content_of(sequence), first);
   sequence.reference.front().stamp = -1.0;
   EXPECT_NE(content_of(sequence), first);
+}
+
+// Baselines of 1.0 do not know options of views.
+TEST_F(Identity, HasOptionsOfViewsWhereTheyHaveAnEffect) {
+  const std::string common =
+      "  - {dataset: trajectory, estimate: est.txt, reference: gt.txt, label: ";
+  read(common + "a, closures: {source: reference}}\n" + common +
+       "b, closures: {source: reference, rule: view}}\n" + common +
+       "c, closures: {source: reference, rule: view, view: {farthest: 9}}}\n");
+  CellKeys keys(sweep_, known_, {}, "build");
+  const auto text = [&](std::size_t dataset) { return keys.dataset_text({0, dataset, 0, 0}); };
+  EXPECT_THAT(text(0), HasSubstr("closures.radius=0.5, closures.scale=same"));
+  EXPECT_THAT(text(0), Not(HasSubstr("closures.rule")));
+  EXPECT_THAT(text(1), HasSubstr("closures.rule=view"));
+  EXPECT_THAT(text(1), HasSubstr("closures.view.farthest=4.0"));
+  std::set<std::string> hashes;
+  for (const std::size_t dataset : {0u, 1u, 2u}) {
+    hashes.insert(keys.configuration_hash({0, dataset, 0, 0}));
+  }
+  EXPECT_EQ(hashes.size(), 3u);
 }
 
 TEST_F(Group, IsTheShapeOfTheReferenceInAnyFile) {
