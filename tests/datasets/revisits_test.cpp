@@ -31,7 +31,7 @@ TEST(Revisits, EqualBruteForceOnRandomWalks) {
   std::size_t found = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Trajectory walk = random_walk(400, seed, 1.0, 0.4);
-    for (const RevisitRule rule : {RevisitRule{1.0, 0.8, 5.0}, RevisitRule{2.5, 3.2, 40.0}}) {
+    for (const RevisitRule& rule : {RevisitRule{1.0, 0.8, 5.0}, RevisitRule{2.5, 3.2, 40.0}}) {
       const auto revisits = find_revisits(walk, rule);
       EXPECT_EQ(revisits, by_brute_force(walk, rule)) << "seed " << seed;
       found += revisits.size();
