@@ -53,7 +53,8 @@ TEST(Dual, ResultDoesNotDependOnTheInitialKeyframes) {
 TEST(Dual, DeclinesIncompleteChainsAndTooManyLoops) {
   Problem problem = walk(1, 14, 0.05);
   EXPECT_EQ(Dual({}).why_declined(problem), "");
-  EXPECT_EQ(Dual({.max_closures = 2}).why_declined(problem), "3 closures exceed max_closures = 2: use pose_graph");
+  EXPECT_EQ(Dual({.max_closures = 2}).why_declined(problem),
+            "3 closures exceed max_closures = 2: use pose_graph");
   problem.odometry.pop_back();
   EXPECT_EQ(Dual({}).why_declined(problem), "odometry has 12 edges, a complete chain has 13");
   problem.closures.clear();
