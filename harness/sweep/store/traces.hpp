@@ -57,7 +57,9 @@ template <class Item>
 std::vector<Item> unpacked_items(std::string_view bytes, unsigned steps) {
   const std::vector<float> rows = unpacked_columns(bytes, sizeof(Item) / sizeof(float), steps);
   std::vector<Item> out(rows.size() * sizeof(float) / sizeof(Item));
-  if (!out.empty()) std::memcpy(out.data(), rows.data(), rows.size() * sizeof(float));
+  static_assert(std::is_trivially_copyable_v<Item>);
+  void* const bytes_of_items = out.data();
+  if (!out.empty()) std::memcpy(bytes_of_items, rows.data(), rows.size() * sizeof(float));
   return out;
 }
 
