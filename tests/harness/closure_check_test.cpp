@@ -54,6 +54,16 @@ TEST(ClosureCheck, StatesThatAllClosuresAgree) {
   EXPECT_THAT(of_pose_graph(rounds(1)).text, HasSubstr("; they agree; "));
 }
 
+TEST(ClosureCheck, StatesThatASlipAtTheOnlyPlaceStaysUnnoticed) {
+  Problem problem = rounds(1);
+  EXPECT_THAT(of_consensus(problem).text, Not(HasSubstr("slip")));
+  problem.closures.resize(1);
+  const CheckSentence found = of_consensus(problem);
+  EXPECT_THAT(found.text,
+              StartsWith("1 of 1 closure is used; no other place predicts it, so a slip along the "
+                         "path stays unnoticed; estimated"));
+}
+
 TEST(ClosureCheck, NamesAFalseClosureWithItsDistance) {
   const Problem problem = one_false();
   const CheckSentence found = of_consensus(problem);

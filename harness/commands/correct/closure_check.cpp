@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "datasets/core/closure_parts.hpp"
 #include "datasets/core/fields.hpp"
 #include "harness/commands/loops/loop_json.hpp"
 #include "harness/sweep/text/counted.hpp"
@@ -25,8 +26,21 @@ std::string details(const ClosureJudgement& found, const Problem& problem) {
          "; estimated standard deviations: " + methods::deviations_text(found.factors);
 }
 
-std::string of_all(std::size_t part, std::size_t all) {
-  return fmt::format("{} of {}", part, counted(all, "closure"));
+/// "4 of 5 closures are used".
+std::string used_text(std::size_t used, std::size_t all) {
+  return fmt::format("{} of {} {} used", used, counted(all, "closure"), used == 1 ? "is" : "are");
+}
+
+/// A slip along the path hides in its drift, unless a closure at another place contradicts it.
+std::string one_place_text(const ClosureJudgement& found, const Problem& problem) {
+  std::vector<Edge> used;
+  for (std::size_t k = 0; k < found.closures.size(); ++k) {
+    if (found.closures[k].finding == ClosureFinding::agrees) used.push_back(problem.closures[k]);
+  }
+  if (!problem.anchors.empty() || used.empty() || closure_parts(used).size() > 1) return "";
+  return used.size() == 1 ? "; no other place predicts it, so a slip along the path stays unnoticed"
+                          : "; they are at one place, so a slip along the path that they share "
+                            "stays unnoticed";
 }
 
 /// Consensus followed the check.
@@ -40,7 +54,8 @@ CheckSentence of_consensus(const ClosureJudgement& found, const Problem& problem
             true};
   }
   const std::vector<std::size_t> dropped = methods::disagreeing_closures(found);
-  std::string out = of_all(found.agreeing, problem.closures.size()) + " are used";
+  std::string out =
+      used_text(found.agreeing, problem.closures.size()) + one_place_text(found, problem);
   if (!dropped.empty()) {
     out += "; dropped: " + methods::disagreeing_text(problem, found, dropped);
   }
@@ -51,7 +66,7 @@ CheckSentence of_consensus(const ClosureJudgement& found, const Problem& problem
 CheckSentence of_other(const ClosureCheck& check, const Problem& problem, const ClosureUse& use) {
   const ClosureJudgement& found = *check.judgement;
   const std::size_t all = problem.closures.size(), used = all - use.rejected.size();
-  std::string out = of_all(used, all) + " are used by " + use.method;
+  std::string out = used_text(used, all) + " by " + use.method;
   if (!found.is_decided()) {
     return {out + "; whether they are true is not decided: " + methods::undecided_text(found)};
   }
@@ -107,11 +122,11 @@ std::vector<std::size_t> disagreeing_used(const ClosureCheck& check, const Closu
 
 CheckSentence sentence(const ClosureCheck& check, const Problem& problem, const ClosureUse& use) {
   if (check.judgement == nullptr) {
-    return {
-        fmt::format("{} are used by {}; they were not checked: {}",
-                    of_all(problem.closures.size() - use.rejected.size(), problem.closures.size()),
-                    use.method,
-                    check.cause)};
+    return {fmt::format(
+        "{} by {}; they were not checked: {}",
+        used_text(problem.closures.size() - use.rejected.size(), problem.closures.size()),
+        use.method,
+        check.cause)};
   }
   return use.is_consensus ? of_consensus(*check.judgement, problem) : of_other(check, problem, use);
 }
