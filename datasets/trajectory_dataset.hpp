@@ -263,9 +263,10 @@ struct TrajectoryInputs {
 /// Derives a problem from the input files. Endpoints of closures from a closure file always become
 /// keyframes. Seeded noise is added to closures from the reference, none to closures from another
 /// run. Another run whose path length differs by 25 % or more (monocular scale) is rejected, unless
-/// closures.scale is local: then closures are Sim(3) (see with_local_scale) and closures.radius is
-/// in the scale of that run. The indices of added false closures are written to `false_closures`
-/// unless it is null. Throws OptionError, InputError. O(n log n).
+/// closures.scale is local: then closures are Sim(3) (see with_local_scale), and closures.radius
+/// and the ranges of closures.view are in the scale of that run. The indices of added false
+/// closures are written to `false_closures` unless it is null. Throws OptionError, InputError. O(n
+/// log n).
 Problem derive_problem(const TrajectoryInputs& inputs,
                        const TrajectoryOptions& options,
                        std::vector<std::size_t>* false_closures = nullptr);

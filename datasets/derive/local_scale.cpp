@@ -52,8 +52,9 @@ LocalScale scale_between(const Positions& all, Eigen::Index first, Eigen::Index 
   LocalScale out;
   const double length = length_of(from), other_length = length_of(to);
   out.has_motion = length > 0.0 && other_length > 0.0;
-  if (!out.has_motion || count < 4) return out;
+  if (!out.has_motion) return out;
   out.by_length = other_length / length;
+  if (count < 4) return out;
   const Eigen::Matrix4d motion = align_points(from, to, true);
   const double determinant = motion.topLeftCorner<3, 3>().determinant();
   if (!(determinant > 0.0)) return out;

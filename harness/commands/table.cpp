@@ -186,7 +186,7 @@ void add_table(CLI::App& app, int& exit_code) {
          "Fields for whose values there is a table each; '' makes one table. Without --rows, "
          "--columns and --split, a single score of several sequences gives one table of methods by "
          "sequences");
-  command.footer(fmt::format("Fields: {}, and options of methods and datasets (planar).",
+  command.footer(fmt::format("Fields: {}, and options of methods (planar).",
                              fmt::join(record_columns(), ", ")));
   add(command,
       "--value",
@@ -204,9 +204,9 @@ void add_table(CLI::App& app, int& exit_code) {
   add(command,
       "--show",
       a.spec.show,
-      "Scores to show: ate,error x,gain,time,cpu,wall,memory; gain is the decrease relative to the "
-      "baseline in percent. Default: all but costs; with --format latex or markdown the first one "
-      "(of a single sequence also gain and time)");
+      "Scores to show: ate,error x,change,gain,time,cpu,wall,memory; change is relative to the "
+      "baseline in percent, gain is minus the change. Default: all but change and costs; with "
+      "--format latex or markdown the first one (of a single sequence also change and cpu)");
   add(command,
       "--success",
       a.success,

@@ -42,9 +42,16 @@ inline std::string loops_fault(const Problem& problem,
   return why_no_chain(problem);
 }
 
-/// Whether an edge changes the scale (a Sim(3) problem), as in monocular chains.
+/// False if the scale of the edge is unknown, as of closures where nothing shows it
+/// (with_local_scale()). Without an information the scale has a default deviation.
+inline bool states_scale(const Edge& edge) {
+  constexpr double kLeast = 1e-5;  // of a deviation of 300 times
+  return edge.scale_information == 0.0 || edge.scale_information > kLeast;
+}
+
+/// Whether an edge changes the scale, or leaves it open (a Sim(3) problem), as in monocular chains.
 inline bool has_scale_drift(const Problem& problem) {
-  const auto scaled = [](const Edge& edge) { return edge.scale != 1.0; };
+  const auto scaled = [](const Edge& edge) { return edge.scale != 1.0 || !states_scale(edge); };
   return std::ranges::any_of(problem.odometry, scaled) ||
          std::ranges::any_of(problem.closures, scaled);
 }

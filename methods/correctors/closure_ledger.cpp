@@ -11,7 +11,8 @@
 namespace loopbench::methods {
 
 std::string why_no_ledger(const Problem& problem) {
-  if (problem.closures.empty() && problem.anchors.empty()) return "the problem has no loop closures";
+  if (problem.closures.empty() && problem.anchors.empty())
+    return "the problem has no loop closures";
   if (has_scale_drift(problem)) return "edges change the scale, which the ledger does not estimate";
   if (const auto unreached = first_unconnected(problem)) {
     return "the graph is not connected: no path from keyframe " + problem.name_of(0) +

@@ -109,14 +109,14 @@ double cost_of(const AnchoredChain& at) {
 }
 
 /// The solution of pose_graph. From the keyframes, the equations of the loops can end in another
-/// minimum where the chain has drifted by a quarter of a rotation.
-Trajectory graph_solution(const Problem& problem) {
+/// minimum where the chain has drifted by a quarter of a rotation. nullopt: there is none.
+std::optional<Trajectory> graph_solution(const Problem& problem) {
   Report unused;
   try {
     return PoseGraphOptimizer({.start = PoseGraphOptimizer::Start::chordal})
         .correct(problem, unused);
-  } catch (const std::runtime_error&) {  // no usable solution
-    return problem.keyframes;
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
   }
 }
 
@@ -132,7 +132,8 @@ Trajectory correct_anchored(const Dual::Options& options, const Problem& stated,
   }
   report.count("chi2_before", 2.0 * cost_of(AnchoredChain(problem, used)));
   if (options.start == Dual::Start::automatic) {
-    problem.keyframes = report.time("initial values", [&] { return graph_solution(stated); });
+    auto solved = report.time("initial values", [&] { return graph_solution(stated); });
+    if (solved) problem.keyframes = *std::move(solved);
   }
   double chi2 = 0.0;
   int iterations = 0;

@@ -40,7 +40,8 @@ class TwoPassChain {
     apply_tail(loop.to + 1);
     // The closure measures the scale change of the original chain; earlier loops have already
     // corrected part of it.
-    const double scale = scaled ? loop.scale * scale_[loop.from] / scale_[loop.to] : 1.0;
+    const double scale =
+        scaled && states_scale(loop) ? loop.scale * scale_[loop.from] / scale_[loop.to] : 1.0;
     const Pose start = pose(loop.from);
     const Pose old_end = pose(loop.to);
     const Pose target = start * measured(loop);

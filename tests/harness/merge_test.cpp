@@ -30,6 +30,19 @@ TEST_F(MergeTest, PrefersWhatDidNotFail) {
   EXPECT_EQ(read_cells(out).size(), 2u);
 }
 
+TEST_F(MergeTest, KeepsTheOptionsOfAllSweeps) {
+  file_ = folder_.path() / "1.sqlite";
+  run(config("straight"));
+  file_ = folder_.path() / "2.sqlite";
+  run(config("{method: shift, by: 3, label: far}"));
+  const std::filesystem::path out = folder_.path() / "3.sqlite";
+  merge_stores({folder_.path() / "1.sqlite", file_}, out);
+  for (const CellRow& cell : read_cells(out)) {
+    ASSERT_EQ(cell.stages->size(), 1U) << cell.method;
+    EXPECT_EQ(cell.stages->front().options.contains("by"), cell.method == "far");
+  }
+}
+
 TEST_F(MergeTest, RefusesWhatDoesNotBelongTogether) {
   const std::filesystem::path one = file_ = folder_.path() / "1.sqlite";
   run(kUsual);

@@ -120,7 +120,7 @@ TEST(Formats, LatexIsOneTableThatIsTransposedIfItIsTooWide) {
   EXPECT_EQ(occurrences(huge, "(part 1 of"), 1U);
 }
 
-TEST(Formats, LatexHasNoOptionsOfTheCommandLine) {
+TEST(Formats, LatexHasTheNotesForPapers) {
   const std::string text = latex(numbers(3, 3));
   EXPECT_EQ(occurrences(text, "a{-}{-}b: failed (no {-}{-}file)\\par"), 1U) << text;  // no remark
   EXPECT_EQ(occurrences(text, "times: dense\\par"), 1U) << text;

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "methods/correctors/chain.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/elch.hpp"
 #include "methods/correctors/uniform.hpp"
@@ -63,6 +64,19 @@ TEST(TwoPass, DistributesScaleAsAPowerOfTheShareAndOnce) {
     problem.closures = closures;
     expect_positions(corrected<TwoPass>(problem), {0.0, 1.0, 3.0, 7.0, 15.0}, 1e-9);
   }
+  // A loop whose scale is unknown takes the scale that earlier loops gave the path.
+  Edge unknown = loop(0, 4, 7.5, 1);
+  unknown.scale_information = 1e-6;
+  problem.closures = {loop(0, 2, 3, 4), unknown};
+  const Trajectory open = corrected<TwoPass>(problem);
+  problem.closures[1] = loop(0, 4, 7.5, 4);
+  const Trajectory stated = corrected<TwoPass>(problem);
+  for (std::size_t k = 0; k < open.size(); ++k)
+    EXPECT_POSE_NEAR(open[k].world_from_body, stated[k].world_from_body, 1e-12, 1e-12);
+  problem.closures = {unknown};
+  EXPECT_TRUE(has_scale_drift(problem));
+
+  problem.closures = {loop(0, 4, 15, 16)};
   const Trajectory rigid = corrected<TwoPass>(problem, {.scale = false});
   EXPECT_NEAR(rigid[1].world_from_body.translation.x(), 3.75, 1e-12);
 }

@@ -129,10 +129,7 @@ void mark_best(Table& out, const TableNumbers& table, const TableSpec& spec, boo
     out.marks = {along_columns, tested};
     out.notes.insert(out.notes.begin(), marks_text(*out.marks));
   } else if (!why_none.empty()) {
-    out.notes.push_back(
-        "no best value is marked: " + why_none +
-        (tested > 1 ? fmt::format(" ({} {} are tested)", tested, along_columns ? "columns" : "rows")
-                    : ""));
+    out.notes.push_back("no best value is marked: " + why_none);
   }
 }
 

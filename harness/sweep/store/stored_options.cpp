@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <unordered_map>
 
 namespace loopbench::harness {
@@ -66,9 +67,13 @@ std::string options_json(const CellKeys& keys) {
 void add_options(Database& database, std::vector<StoredCell>& cells) try {
   Statement row = database.prepare("SELECT value FROM run WHERE key = 'options'");
   if (!row.step()) return;
-  const OptionsJson all = OptionsJson::parse(row.text());
-  const StoredStages datasets = stages_of(all.at("datasets"));
-  const StoredStages methods = stages_of(all.at("methods"));
+  StoredStages datasets, methods;
+  std::istringstream sweeps(row.text());  // a line for each that was merged
+  for (std::string line; std::getline(sweeps, line);) {
+    const OptionsJson all = OptionsJson::parse(line);
+    datasets.merge(stages_of(all.at("datasets")));
+    methods.merge(stages_of(all.at("methods")));
+  }
   const auto set =
       [](Shared<std::vector<Choice>>& stages, const StoredStages& from, const std::string& label) {
         if (const auto own = from.find(label); own != from.end()) stages = own->second;

@@ -26,11 +26,11 @@ namespace loopbench::methods::consensus {
 /// solution without it (leave one out, to first order). From all anchors, the most unlikely are
 /// dropped until none is likelier an outlier, then those that became likely return. Consecutive
 /// anchors that a common shift makes agree with the others are dropped together (anchor_runs.hpp).
-/// With
-/// `is_calibrated`, the information of the odometry is right; otherwise a common factor on its
+/// With `is_calibrated`, the information of the odometry is right; otherwise a common factor on its
 /// deviations, from 1/16 to 256, is the one under which the anchors predict each other best.
 ///
-/// Closures are taken as true. About 30 solutions of the pose graph, 5 if `is_calibrated`.
+/// Closures are taken as true. About 30 solutions of the pose graph, 5 if `is_calibrated`;
+/// more where errors change suddenly (shifted_run()).
 /// Deterministic. Requires edges of scale 1 that connect all keyframes, and at least one anchor.
 /// Throws std::runtime_error if no solution is found.
 inline AnchorJudgement judge_anchors(const Problem& problem, bool is_calibrated) {

@@ -103,8 +103,8 @@ inline bool is_mostly_dropped(const AnchorRun& run, const AnchorExplanation& in)
 }
 
 /// The run whose common shift explains the anchors better than `best`; nullopt: none. The shift has
-/// the prior of one outlier that can begin and end anywhere. At most ten times the solutions of
-/// one factor, none if no error changes suddenly.
+/// the prior of one outlier that can begin and end anywhere. At most 18 times the solutions of
+/// one factor (6 if `is_calibrated`), none if no error changes suddenly.
 inline std::optional<ShiftedRun> shifted_run(const Problem& problem,
                                              const AnchorExplanation& best,
                                              bool is_calibrated) {

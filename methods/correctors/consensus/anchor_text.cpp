@@ -51,7 +51,8 @@ std::string end_run_text(const Problem& problem, const AnchorRun& run) {
   const std::size_t before = is_begin ? run.last : run.first - 1;
   return fmt::format(
       "the anchors {} {} are shifted by {:.3g} m against those {}, all alike: they or the odometry "
-      "between {} and {} are wrong, which closures could decide; both groups are used",
+      "between {} and {} are wrong, which closures could decide; neither group is dropped as a "
+      "whole",
       is_begin ? "up to" : "from",
       name_of(problem, is_begin ? run.last : run.first) + (is_begin ? "" : " on"),
       run.metres,
@@ -112,7 +113,7 @@ std::string anchors_text(const Problem& problem, const AnchorJudgement& found) {
 
 std::string datum_shift_text(const Problem& problem, const AnchorJudgement& found) {
   constexpr double kLarger = 3.0;
-  if (found.run && found.run->is_end) return end_run_text(problem, *found.run);
+  if (found.is_decided && found.run && found.run->is_end) return end_run_text(problem, *found.run);
   Problem frames = problem;
   frames.anchors = used_anchors(problem.anchors, found);
   if (frames.anchors.empty()) return "";

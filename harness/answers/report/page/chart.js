@@ -114,8 +114,12 @@
       return +(step * Math.floor(domain[0] / step)).toPrecision(9);
     };
     const [xOrigin, yOrigin] = [origin(o.x, xDomain), origin(o.y, yDomain)];
-    const labelOf = (axis, from) => axis.label + (from ? ` ${from < 0 ? "+" : "−"} ${Math.abs(from)}` : "") +
-      (axis.unit ? ` [${axis.unit}]` : "");
+    const labelOf = (axis, from) => {
+      const unit = axis.unit ? ` [${axis.unit}]` : "";
+      if (!from) return axis.label + unit;
+      const shift = ` ${from < 0 ? "+" : "−"} ${Math.abs(from)}`;
+      return unit || !axis.label.includes(" [") ? axis.label + shift + unit : axis.label.replace(" [", shift + " [");
+    };
     const numbers = (axis, s, from) => axis.format ? axis.format : axis.log ? R.number : from ? (t) => s.tickFormat(7)(t - from) : null;
     const scale = (axis, domain, range) => axis.band
       ? d3.scaleBand(axis.band, range).padding(above ? 0.5 : 0.25)
