@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "methods/correctors/anchors.hpp"
+#include "methods/correctors/chain.hpp"
 
 namespace loopbench::methods {
 namespace {
