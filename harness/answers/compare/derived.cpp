@@ -206,12 +206,12 @@ void add_derived(std::vector<Record>& records,
   std::vector<Record> derived = gains(records, baseline);
   std::ranges::move(pair_counts(records), std::back_inserter(derived));
   std::ranges::move(run_times(records), std::back_inserter(derived));
-  std::ranges::move(cost_scores(records, asked), std::back_inserter(derived));
   const auto is_change = [](const std::string& text) {
     return text.find("change") != std::string::npos;
   };
   if (std::ranges::any_of(asked, is_change))
     std::ranges::move(changes(records, baseline), std::back_inserter(derived));
+  std::ranges::move(cost_scores(records, asked), std::back_inserter(derived));
   std::ranges::move(derived, std::back_inserter(records));
 }
 

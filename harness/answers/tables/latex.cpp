@@ -185,6 +185,8 @@ std::string latex(const Table& all, const LatexOptions& options) {
   mark_equal_numbers(table);
   const char* const separator = table.title.empty() || table.facts.empty() ? "" : "; ";
   const std::string stated = table.title + separator + table.facts;
+  std::erase_if(table.notes,
+                [&](const std::string& note) { return stated.find(note) != stated.npos; });
   if (!options.caption.empty() && !stated.empty()) table.notes.insert(table.notes.begin(), stated);
   std::string comments, cautions;
   for (const std::string& line : table.above) {

@@ -21,7 +21,8 @@ double mean_change(const TableEntry& entry) {
       logarithms.push_back(std::log(1.0 + 0.01 * entry.ratio_sign * change));
     groups.push_back(metrics::mean(logarithms));
   }
-  return 100.0 * entry.ratio_sign * (std::exp(metrics::mean(groups)) - 1.0);
+  const double ratio = std::exp(metrics::mean(groups));
+  return 100.0 * (entry.ratio_sign < 0 ? 1.0 - ratio : ratio - 1.0);  // not -0 for a ratio of 1
 }
 
 std::map<SharedText, std::vector<double>> kept_by_sequence(const TableEntry& entry) {
