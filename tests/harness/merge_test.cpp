@@ -34,7 +34,7 @@ TEST_F(MergeTest, KeepsTheOptionsOfAllSweeps) {
   file_ = folder_.path() / "1.sqlite";
   run(config("straight"));
   file_ = folder_.path() / "2.sqlite";
-  run(config("{method: shift, by: 3, label: far}"));
+  run(config("straight, {method: shift, by: 3, label: far}"), Retry::none, " / far");
   const std::filesystem::path out = folder_.path() / "3.sqlite";
   merge_stores({folder_.path() / "1.sqlite", file_}, out);
   for (const CellRow& cell : read_cells(out)) {

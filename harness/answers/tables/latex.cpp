@@ -186,7 +186,7 @@ std::string latex(const Table& all, const LatexOptions& options) {
   const char* const separator = table.title.empty() || table.facts.empty() ? "" : "; ";
   const std::string stated = table.title + separator + table.facts;
   std::erase_if(table.notes,
-                [&](const std::string& note) { return stated.find(note) != stated.npos; });
+                [&](const TableNote& note) { return stated.find(note.text) != std::string::npos; });
   if (!options.caption.empty() && !stated.empty()) table.notes.insert(table.notes.begin(), stated);
   std::string comments, cautions;
   for (const std::string& line : table.above) {
