@@ -94,7 +94,7 @@ Table methods_table(const GateReport& report, const std::string& sweep) {
     out.notes.push_back(
         fmt::format("and {}", counted(methods.size() - kCommentMethods, "more method")));
   }
-  for (std::string& note : shortened_notes(report.notes)) out.notes.push_back(std::move(note));
+  for (const std::string& note : shortened_notes(report.notes)) out.notes.emplace_back(note);
   out.above = shortened_notes(report.above);
   return out;
 }

@@ -150,7 +150,7 @@ std::vector<Table> summary(const std::vector<Record>& records,
   }
   const std::string oracle = oracle_closures_note(oracle_sequences, kMostSequences);
   if (!oracle.empty()) table.notes.push_back(oracle);
-  for (std::string& line : reasons(compared)) table.notes.push_back(std::move(line));
+  for (const std::string& line : reasons(compared)) table.notes.emplace_back(line);
   if (stated != nullptr) {
     for (const Record& r : compared) {
       if (r.status != Status::ok) stated->insert(r.why);

@@ -203,7 +203,7 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
                           is_aligned ? "" : ", not aligned",
                           body_text(first));
   out.above = grouped(above);
-  for (std::string& note : grouped(notes)) out.notes.push_back(std::move(note));
+  for (const std::string& note : grouped(notes)) out.notes.emplace_back(note);
   if (detail == Detail::all) {
     out.notes.push_back("other statistics: --set statistic=max, --csv, or one estimate at a time");
   }
