@@ -58,7 +58,8 @@ TEST(SharedView, OfScannersIsThatOfTwoBalls) {
 TEST(SharedView, OfVehiclesLooksAlongX) {
   View view = kinect();
   view.axes = View::Axes::x_forward;
-  EXPECT_NEAR(SharedView(view).share({exp_so3({0, 0, 0.5 * 57.0 * kDegree}), {}}), 0.5, 1e-9);
+  EXPECT_NEAR(
+      SharedView(view).share({exp_so3({0, 0, 0.5 * 57.0 * kDegree}), Vector3::Zero()}), 0.5, 1e-9);
 }
 
 /// The camera looks along z, goes away, and comes back 0.9 m beside its start.
